@@ -1,0 +1,1 @@
+# `cmake --install`: the library with its CMake package, and the programs.

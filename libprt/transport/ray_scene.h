@@ -1,0 +1,65 @@
+#pragma once
+// The one gateway for rays. Every ray of libprt goes through here: non-finite input is refused and
+// counted (Embree aborts on it), packets are formed, and hits come back in our own terms.
+
+#include "libprt/core/math.h"
+#include "libprt/transport/scene.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+namespace prt {
+
+struct Ray {
+  Vec3 origin;
+  float tNear = 0;
+  Vec3 direction;  ///< unit
+  float tFar = std::numeric_limits<float>::infinity();
+};
+
+inline constexpr std::uint32_t kNoHit = 0xffffffffu;
+
+struct Hit {
+  std::uint32_t triangle = kNoHit;
+  float t = 0;
+  Vec2 barycentric{0};  ///< weights of corners 1 and 2; corner 0 has 1 - x - y
+  bool valid() const { return triangle != kNoHit; }
+};
+
+/// A surface point moved off the surface, along geometric normal `n`, just enough that rays leaving on
+/// that side do not meet the surface they left, at any scale and distance from the origin
+/// (Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
+Vec3 offsetOrigin(const Vec3& p, const Vec3& n);
+
+/// An Embree scene built for robustness over speed. Thread-safe once built.
+class RayScene {
+ public:
+  /// Keeps no reference to `scene`. Throws GeometryError on non-finite positions, ResourceError when
+  /// the build fails.
+  explicit RayScene(const Scene& scene);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  bool occluded(const Ray& ray) const;
+  Hit intersect(const Ray& ray) const;
+
+  /// Many rays from one origin: blocked[i] = 1 if direction i meets anything. Directions as separate
+  /// coordinates; sorted, coherent sets run faster. Sizes equal.
+  void occludedFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
+                    std::span<const float> dz, std::span<std::uint8_t> blocked) const;
+  /// Many rays from one origin, with what they hit.
+  void intersectFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
+                     std::span<const float> dz, std::span<Hit> hits) const;
+
+  /// Rays refused because they were not finite, since the scene was built. They count as "hit nothing".
+  std::uint64_t refusedRays() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace prt

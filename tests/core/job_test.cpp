@@ -1,0 +1,84 @@
+#include "libprt/core/error.h"
+#include "libprt/core/job.h"
+#include "libprt/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+namespace prt {
+namespace {
+
+TEST(Job, CountsWorkFromManyThreads) {
+  Job job;
+  job.begin("count", 1000, "items");
+  parallelFor(job, 0, 1000, 7, [&](std::size_t begin, std::size_t end) { job.advance(double(end - begin)); });
+  EXPECT_EQ(job.snapshot().done, 1000);
+  EXPECT_EQ(job.snapshot().fraction(), 1.0);
+}
+
+TEST(Job, CancelEndsALoopWithCancelled) {
+  Job job;
+  EXPECT_THROW(parallelFor(job, 0, 1000, 1, [&](std::size_t begin, std::size_t) {
+                 if (begin == 10) job.cancel();
+               }),
+               Cancelled);
+}
+
+TEST(Job, PauseHoldsWorkUntilResumed) {
+  Job job;
+  job.pause();
+  std::atomic<bool> passed{false};
+  std::thread worker([&] { job.checkCancelled(), passed = true; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  EXPECT_FALSE(passed);
+  job.resume();
+  worker.join();
+  EXPECT_TRUE(passed);
+}
+
+TEST(Job, CancelWakesPausedWork) {
+  Job job;
+  job.pause();
+  std::thread worker([&] { EXPECT_THROW(job.checkCancelled(), Cancelled); });
+  job.cancel();
+  worker.join();
+}
+
+TEST(Job, ListenerHearsTheEnd) {
+  double last = 0;
+  Job job([&](const Progress& p) { last = p.fraction(); });
+  job.begin("work", 100, "items");
+  for (int i = 0; i < 100; ++i) job.advance(1);
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(Parallel, TilesDoNotDependOnTheThreadCount) {
+  const auto tiles = [](int threads) {
+    setThreadCount(threads);
+    std::vector<int> firstOfTile(103, -1);
+    Job job;
+    parallelFor(job, 0, 103, 10, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) firstOfTile[i] = int(begin);
+    });
+    setThreadCount(0);
+    return firstOfTile;
+  };
+  EXPECT_EQ(tiles(1), tiles(4));
+  EXPECT_EQ(tiles(1)[102], 100);
+}
+
+TEST(Parallel, ExceptionsOfABodyComeBack) {
+  Job job;
+  EXPECT_THROW(parallelFor(job, 0, 10, 1, [](std::size_t, std::size_t) { throw ValueError("bad", "here", ""); }),
+               ValueError);
+}
+
+TEST(Error, MessageIsOneLineWithWhatWhereAndFix) {
+  const FileError error("is not\na mesh", "a.obj", "check the path");
+  EXPECT_STREQ(error.what(), "a.obj: is not a mesh (check the path)");
+}
+
+}  // namespace
+}  // namespace prt
