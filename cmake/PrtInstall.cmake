@@ -1,1 +1,18 @@
-# `cmake --install`: the library with its CMake package, and the programs.
+# `cmake --install`: the library with its CMake package (find_package(prt) gives prt::prt), the programs and data.
+include(CMakePackageConfigHelpers)
+
+set(PRT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/prt)
+install(TARGETS prt EXPORT prtTargets)
+install(DIRECTORY libprt/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/libprt FILES_MATCHING PATTERN "*.h")
+install(EXPORT prtTargets NAMESPACE prt:: DESTINATION ${PRT_PACKAGE_DIR})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/prtConfig.cmake.in ${PROJECT_BINARY_DIR}/prtConfig.cmake
+  INSTALL_DESTINATION ${PRT_PACKAGE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/prtConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/prtConfig.cmake ${PROJECT_BINARY_DIR}/prtConfigVersion.cmake
+  cmake/PrtDependencies.cmake DESTINATION ${PRT_PACKAGE_DIR})
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(TARGETS prt_cli)
+if(TARGET prt-studio)
+  install(TARGETS prt-studio)
+endif()
