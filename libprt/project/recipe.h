@@ -1,0 +1,171 @@
+#pragma once
+// The recipe: every parameter of a project as one plain value. Undo is the previous recipe; the command
+// line edits it by path ("transfer.bounces=3"), the studio by forms. In JSON angles are degrees, colours
+// linear Rec.709 and every key has a default. Reading is strict: an unknown key, a wrong type or a value
+// out of range is a ValueError that names the path and, for a name, the nearest valid one.
+//
+// "mesh", "transform" and "material" are short for objects[0].mesh and so on, in JSON and in paths, and
+// a mesh given as a plain string means its path.
+
+#include "libprt/core/math.h"
+#include "libprt/material/material.h"
+#include "libprt/shade/camera.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// Version of the JSON layout that this program writes; it reads this one and those before.
+inline constexpr int kRecipeVersion = 1;
+
+struct MeshRecipe {
+  std::string path = "builtin:vase";  ///< file relative to the recipe, or "builtin:NAME"
+  float detail = 1;                   ///< resolution of a built-in mesh, relative to the generator's own
+  std::uint64_t seed = 1;             ///< of a built-in mesh's noise
+  bool repair = true;                 ///< false: anything that would need repair is an error
+  float crease = 180;                 ///< degrees: computed normals are not smoothed across sharper edges
+  bool fileNormals = true;            ///< keep the normals that the file has
+  bool operator==(const MeshRecipe&) const = default;
+};
+
+/// Scale first, then turns about x, y, z (degrees, in this order), then moves.
+struct TransformRecipe {
+  Vec3 translate{0};
+  Vec3 rotate{0};
+  Vec3 scale{1};
+
+  Mat4 matrix() const;
+  bool operator==(const TransformRecipe&) const = default;
+};
+
+struct ObjectRecipe {
+  std::string name = "object";
+  MeshRecipe mesh;
+  TransformRecipe transform;
+  Material material;
+  bool operator==(const ObjectRecipe&) const = default;
+};
+
+enum class LightKind { Environment, Circle, Directional, Constant };
+
+struct LightRecipe {
+  std::string name = "light";
+  LightKind kind = LightKind::Environment;
+  std::string path = "builtin:clear-sky";  ///< environment: file or "builtin:NAME"
+  std::string mapping = "auto";            ///< environment: layout of the image
+  float rotation = 0;                      ///< degrees about +Y, counter-clockwise seen from above
+  float intensity = 1;                     ///< factor on everything this light sends
+  Vec3 direction{0, 1, 0};                 ///< circle, directional: towards the light; any length but 0
+  float angle = 30;                        ///< circle: degrees across, edge to edge
+  Rgb radiance{1};  ///< circle, constant: radiance; directional: irradiance on a surface facing it
+  bool operator==(const LightRecipe&) const = default;
+};
+
+struct CameraRecipe {
+  std::string name = "main";
+  Vec3 eye{0, 0, 3};
+  Vec3 target{0};
+  Vec3 up{0, 1, 0};
+  float verticalFov = 30;  ///< degrees, full angle
+
+  Camera camera() const;
+  bool operator==(const CameraRecipe&) const = default;
+};
+
+enum class TransferKind { Auto, None, Diffuse, Visibility, Matrix };
+enum class TransferStorage { Auto, Float, Half };
+
+struct TransferRecipe {
+  TransferKind kind = TransferKind::Auto;
+  int bands = 5;
+  int rays = 1024;
+  int bounces = 3;
+  bool shadows = true;
+  float threshold = 0.001f;  ///< bounces end early when one adds less than this fraction
+  TransferStorage storage = TransferStorage::Auto;
+  std::uint64_t seed = 1;
+  bool operator==(const TransferRecipe&) const = default;
+};
+
+/// How a picture is made from the products; baking does not read it.
+struct MethodRecipe {
+  std::string name = "auto";
+  std::string window = "none";
+  bool operator==(const MethodRecipe&) const = default;
+};
+
+struct Recipe {
+  std::vector<ObjectRecipe> objects{ObjectRecipe{}};
+  std::vector<LightRecipe> lights{LightRecipe{}};
+  std::vector<CameraRecipe> cameras;  ///< empty: a view that frames everything
+  TransferRecipe transfer;
+  MethodRecipe method;
+  bool operator==(const Recipe&) const = default;
+};
+
+// ---- JSON ----
+
+/// Every value, defaults included.
+nlohmann::json recipeToJson(const Recipe& recipe);
+/// Keys that are absent keep their defaults. `where` begins every error message.
+Recipe recipeFromJson(const nlohmann::json& json, const std::string& where);
+/// The same from text; a syntax error or a key given twice is a ValueError too.
+Recipe recipeFromText(const std::string& text, const std::string& where);
+/// Reads a .json file. Throws FileError when it cannot be read or is not a recipe's size.
+Recipe loadRecipe(const std::filesystem::path& file);
+
+/// What no single value can tell: at least one object, no object flattened, lights with a direction,
+/// cameras that see something. Throws ValueError with the path behind `where`.
+void checkRecipe(const Recipe& recipe, const std::string& where);
+
+// ---- paths ----
+
+enum class ParameterType { Boolean, Integer, Number, Text, File, Choice, Color, Vector };
+std::string toString(ParameterType type);
+
+/// What there is to know about one parameter: the source of JSON reading and writing, paths, tooltips,
+/// `prt bake --help` and docs/recipe.md.
+struct Parameter {
+  std::string path;  ///< "objects[].mesh.path"; [] stands for an index
+  ParameterType type = ParameterType::Number;
+  std::string unit;      ///< "degrees", "rays", or empty
+  double low = 0;        ///< numbers, and each component of a colour or vector; low == high: no limits
+  double high = 0;
+  std::vector<std::string> choices;
+  std::string defaultText;  ///< as JSON
+  std::string cost;         ///< what a change costs, in words
+  std::string doc;          ///< one line
+};
+
+/// All parameters, in the recipe's order.
+const std::vector<Parameter>& parameters();
+/// The parameter that a path means, short forms and indices included. Throws ValueError, naming the
+/// nearest valid path, when there is none.
+const Parameter& parameterAt(const std::string& path);
+
+/// Sets one value from text: JSON, or plain text where a string, choice, file, colour ("1,0.5,0" or one
+/// grey value) or vector ("0,1,0") is wanted. lights[N] and the like may be one past the end: it is
+/// appended. Throws ValueError and leaves the recipe unchanged.
+void setByPath(Recipe& recipe, const std::string& path, const std::string& value);
+/// Applies "PATH=VALUE".
+void setByAssignment(Recipe& recipe, const std::string& assignment);
+/// The value as JSON.
+nlohmann::json getByPath(const Recipe& recipe, const std::string& path);
+/// Paths of every value in this recipe, with indices.
+std::vector<std::string> pathsOf(const Recipe& recipe);
+
+/// Turns the relative file paths of a recipe kept in folder `from` into those for one kept in `to`.
+void rebasePaths(Recipe& recipe, const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// "builtin:NAME" or "scene:NAME" rather than a file.
+bool isBuiltin(const std::string& path);
+
+/// Those of `names` that are nearest to `name` by edit distance; empty when nothing is near.
+std::string nearestName(const std::string& name, const std::vector<std::string>& names);
+
+}  // namespace prt
