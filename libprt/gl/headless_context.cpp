@@ -1,0 +1,72 @@
+#include "libprt/gl/headless_context.h"
+
+#include "libprt/core/error.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+namespace prt::gl {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  throw ResourceError(what, "OpenGL without a display", "install libegl1 and libgl1-mesa-dri, or render with the CPU");
+}
+
+EGLDisplay surfacelessDisplay() {
+  if (!epoxy_has_egl()) fail("there is no EGL library");
+  EGLDisplay display = EGL_NO_DISPLAY;
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+    display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
+  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) fail("EGL does not start");
+  return display;
+}
+
+EGLContext createContext(EGLDisplay display) {
+  if (!eglBindAPI(EGL_OPENGL_API)) fail("EGL knows no desktop OpenGL");
+  const EGLint configWanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (!eglChooseConfig(display, configWanted, &config, 1, &count) || count == 0) config = nullptr;  // EGL_NO_CONFIG
+  const EGLint contextWanted[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  return eglCreateContext(display, config, EGL_NO_CONTEXT, contextWanted);
+}
+
+}  // namespace
+
+struct HeadlessContext::Impl {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+};
+
+HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
+  impl_->display = surfacelessDisplay();
+  impl_->context = createContext(impl_->display);
+  if (impl_->context == EGL_NO_CONTEXT) fail("the driver has no OpenGL 4.5");
+  makeCurrent();
+}
+
+// The display is not terminated: another context of this process may live on it.
+HeadlessContext::~HeadlessContext() {
+  eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(impl_->display, impl_->context);
+}
+
+void HeadlessContext::makeCurrent() {
+  if (!eglMakeCurrent(impl_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, impl_->context))
+    fail("the context cannot be made current");
+}
+
+std::string describeContext() {
+  const auto text = [](GLenum name) {
+    const GLubyte* value = glGetString(name);
+    return value ? std::string(reinterpret_cast<const char*>(value)) : std::string("unknown");
+  };
+  return text(GL_VERSION) + ", " + text(GL_RENDERER);
+}
+
+bool contextIsSufficient() { return epoxy_is_desktop_gl() && epoxy_gl_version() >= 45; }
+
+}  // namespace prt::gl

@@ -1,0 +1,31 @@
+#pragma once
+// An OpenGL 4.5 core context without a window or a display: EGL on the "surfaceless" platform, with
+// the graphics card when there is one and Mesa's software driver when there is none.
+
+#include <memory>
+#include <string>
+
+namespace prt::gl {
+
+class HeadlessContext {
+ public:
+  /// Makes the context and makes it current on this thread. Throws ResourceError when the machine has
+  /// no OpenGL 4.5.
+  HeadlessContext();
+  ~HeadlessContext();
+  HeadlessContext(const HeadlessContext&) = delete;
+  HeadlessContext& operator=(const HeadlessContext&) = delete;
+
+  void makeCurrent();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Version and renderer of the current context, "4.5 (Core Profile) Mesa 22.3.6, llvmpipe".
+std::string describeContext();
+/// True when the current context can run prt_gl: OpenGL 4.5 core or newer.
+bool contextIsSufficient();
+
+}  // namespace prt::gl

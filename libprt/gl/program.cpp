@@ -1,0 +1,117 @@
+#include "libprt/gl/program.h"
+
+#include "libprt/core/error.h"
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace prt::gl {
+
+namespace {
+
+const ShaderSource& embedded(const std::string& name) {
+  const auto& all = embeddedShaders();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ShaderSource& s) { return s.name == name; });
+  if (found == all.end()) throw std::logic_error("no shader named " + name);
+  return *found;
+}
+
+std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// A compiled shader object, deleted with the scope; a linked program keeps what it needs.
+class Shader {
+ public:
+  explicit Shader(const ShaderSource& source)
+      : id_(glCreateShader(source.name.ends_with(".vert") ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER)) {
+    const char* text = source.text.c_str();
+    glShaderSource(id_, 1, &text, nullptr);
+    glCompileShader(id_);
+    GLint compiled = 0;
+    glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
+    if (compiled) return;
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(id_, GLsizei(log.size()), &length, log.data());
+    log.resize(std::size_t(length));
+    glDeleteShader(id_);
+    throw ResourceError(firstLine(readableLog(log, source.files)), source.name, "update the graphics driver");
+  }
+  ~Shader() { glDeleteShader(id_); }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  GLuint id() const { return id_; }
+
+ private:
+  GLuint id_;
+};
+
+}  // namespace
+
+std::string readableLog(const std::string& log, const std::vector<std::string>& files) {
+  // Mesa "1:12(3): error", NVIDIA "1(12) : error", AMD and Intel "ERROR: 1:12: ".
+  static const std::regex place(R"(^(ERROR: |WARNING: )?(\d+)[:(](\d+)(\(\d+\)|\))?\s*:\s*)");
+  std::istringstream in(log);
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, place)) {
+      const std::size_t file = std::stoul(match[2]);
+      const std::string name = file < files.size() ? files[file] : "shader " + match[2].str();
+      line = name + ":" + match[3].str() + ": " + match[1].str() + match.suffix().str();
+    }
+    out += line + "\n";
+  }
+  return out;
+}
+
+Program Program::fromLibrary(const std::string& vertex, const std::string& fragment) {
+  return fromSources(embedded(vertex), embedded(fragment));
+}
+
+Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fragment) {
+  const Shader vertexShader(vertex), fragmentShader(fragment);
+  Program program(glCreateProgram());
+  glAttachShader(program.id_, vertexShader.id());
+  glAttachShader(program.id_, fragmentShader.id());
+  glLinkProgram(program.id_);
+  glDetachShader(program.id_, vertexShader.id());
+  glDetachShader(program.id_, fragmentShader.id());
+  GLint linked = 0;
+  glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
+  if (linked) return program;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program.id_, GLsizei(log.size()), &length, log.data());
+  log.resize(std::size_t(length));
+  throw ResourceError(firstLine(log), vertex.name + " + " + fragment.name, "update the graphics driver");
+}
+
+void Program::use() const { glUseProgram(id_); }
+
+int Program::location(const char* name) {
+  const auto found = locations_.find(std::string_view(name));
+  if (found != locations_.end()) return found->second;
+  return locations_[name] = glGetUniformLocation(id_, name);
+}
+
+void Program::set(const char* name, int value) { glProgramUniform1i(id_, location(name), value); }
+void Program::set(const char* name, float value) { glProgramUniform1f(id_, location(name), value); }
+void Program::set(const char* name, const Vec2& value) { glProgramUniform2f(id_, location(name), value.x, value.y); }
+void Program::set(const char* name, const Vec3& value) {
+  glProgramUniform3f(id_, location(name), value.x, value.y, value.z);
+}
+void Program::set(const char* name, const Mat3& value) {
+  glProgramUniformMatrix3fv(id_, location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, const Mat4& value) {
+  glProgramUniformMatrix4fv(id_, location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, std::span<const Vec3> values) {
+  glProgramUniform3fv(id_, location(name), GLsizei(values.size()), glm::value_ptr(values.front()));
+}
+
+}  // namespace prt::gl

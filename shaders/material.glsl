@@ -1,0 +1,5 @@
+struct Material {
+  vec4 albedo;    // w: 1 when back faces reflect too
+  vec4 specular;  // w: Phong exponent
+};
+layout(std430, binding = 0) readonly buffer Materials { Material materials[]; };

@@ -1,0 +1,23 @@
+#include "libprt/gl/headless_context.h"
+
+#include "tests/gl/gl_test_support.h"
+
+namespace prt::gl {
+namespace {
+
+using HeadlessContextTest = test::GlTest;
+
+TEST_F(HeadlessContextTest, IsOpenGl45Core) {
+  EXPECT_TRUE(contextIsSufficient());
+  EXPECT_NE(describeContext().find("Core Profile"), std::string::npos) << describeContext();
+}
+
+TEST_F(HeadlessContextTest, CanBeMadeAgainAndAgain) {
+  for (int i = 0; i < 3; ++i) {
+    HeadlessContext other;
+    EXPECT_TRUE(contextIsSufficient());
+  }
+}
+
+}  // namespace
+}  // namespace prt::gl

@@ -1,0 +1,90 @@
+#include "libprt/gl/program.h"
+
+#include "libprt/core/error.h"
+#include "tests/gl/gl_test_support.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace prt::gl {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+using ProgramTest = test::GlTest;
+
+const ShaderSource& source(const std::string& name) {
+  for (const ShaderSource& shader : embeddedShaders())
+    if (shader.name == name) return shader;
+  throw std::logic_error("no shader named " + name);
+}
+
+TEST_F(ProgramTest, EveryFragmentShaderOfTheLibraryCompiles) {
+  int count = 0;
+  for (const ShaderSource& shader : embeddedShaders()) {
+    if (!shader.name.ends_with(".frag")) continue;
+    const std::string vertex = shader.name == "mesh.frag" ? "mesh.vert" : "fullscreen.vert";
+    EXPECT_NO_THROW(Program::fromLibrary(vertex, shader.name)) << shader.name;
+    ++count;
+  }
+  EXPECT_GE(count, 3);
+}
+
+TEST_F(ProgramTest, IncludesAreResolvedOnceAndLinesKeepTheirNumbers) {
+  const ShaderSource& shader = source("mesh.frag");
+  EXPECT_EQ(shader.text.find("#include"), std::string::npos);
+  EXPECT_EQ(shader.files.front(), "mesh.frag");
+  EXPECT_THAT(shader.files, testing::Contains("material.glsl"));
+
+  // Every line of the embedded text is found at the place its #line directives claim.
+  std::istringstream text(shader.text);
+  std::size_t file = 0, line = 1;
+  std::map<std::size_t, std::vector<std::string>> originals;
+  for (std::size_t i = 0; i < shader.files.size(); ++i) {
+    std::ifstream in(std::string(PRT_SOURCE_DIR) + "/shaders/" + shader.files[i]);
+    for (std::string original; std::getline(in, original);) originals[i].push_back(original);
+  }
+  for (std::string row; std::getline(text, row);) {
+    if (row.starts_with("#line ")) {
+      std::istringstream(row.substr(6)) >> line >> file;
+      continue;
+    }
+    ASSERT_LE(line, originals[file].size());
+    EXPECT_EQ(row, originals[file][line - 1]);
+    ++line;
+  }
+}
+
+TEST_F(ProgramTest, ACompileErrorNamesFileAndLine) {
+  ShaderSource broken = source("mesh.frag");
+  const std::size_t at = broken.text.find("vec4 specular");
+  ASSERT_NE(at, std::string::npos);
+  broken.text.insert(at, "vec5 ");
+  try {
+    Program::fromSources(source("mesh.vert"), broken);
+    FAIL() << "a broken shader compiled";
+  } catch (const ResourceError& error) {
+    EXPECT_THAT(error.problem(), StartsWith("material.glsl:3: "));
+    EXPECT_EQ(error.where(), "mesh.frag");
+  }
+}
+
+TEST_F(ProgramTest, MismatchedStagesDoNotLink) {
+  const ShaderSource vertex{"a.vert", {"a.vert"}, "#version 450 core\nout vec2 x;\nvoid main() { gl_Position = vec4(x = vec2(0), 0, 1); }\n"};
+  const ShaderSource fragment{"b.frag", {"b.frag"}, "#version 450 core\nin vec4 x;\nout vec4 c;\nvoid main() { c = x; }\n"};
+  EXPECT_THROW(Program::fromSources(vertex, fragment), ResourceError);
+}
+
+TEST(ReadableLog, KnowsTheDialectsOfTheDrivers) {
+  const std::vector<std::string> files{"mesh.frag", "sh.glsl"};
+  EXPECT_THAT(readableLog("1:12(3): error: no", files), HasSubstr("sh.glsl:12: error: no"));       // Mesa
+  EXPECT_THAT(readableLog("0(7) : error C1008: no", files), HasSubstr("mesh.frag:7: error C1008"));  // NVIDIA
+  EXPECT_THAT(readableLog("ERROR: 1:12: 'x' : no", files), HasSubstr("sh.glsl:12: ERROR: 'x'"));     // AMD, Intel
+  EXPECT_THAT(readableLog("9:1(1): error: no", files), HasSubstr("shader 9:1"));
+  EXPECT_THAT(readableLog("linking failed", files), StartsWith("linking failed"));
+}
+
+}  // namespace
+}  // namespace prt::gl
