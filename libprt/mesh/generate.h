@@ -74,7 +74,7 @@ TriMesh makeVase(const VaseOptions& options = {});
 /// are near equilateral. Faces +X, symmetric about z = 0 in shape (not in mesh), genus 0, no UVs.
 struct BirdOptions {
   float length = 1;       ///< from beak to tail
-  int cellsAlong = 92;    ///< grid cells along the length, 32..400; vertices grow with its square
+  int cellsAlong = 92;    ///< grid cells along the length, 64..400; vertices grow with its square
   int relaxations = 24;   ///< sweeps of smoothing and edge flips, 0..200
 };
 TriMesh makeBird(const BirdOptions& options = {});

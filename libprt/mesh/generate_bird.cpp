@@ -64,7 +64,7 @@ float birdField(const Vec3& world) {
 
 TriMesh makeBird(const BirdOptions& options) {
   requireLength("length", options.length);
-  requireRange("cellsAlong", options.cellsAlong, 32, 400);
+  requireRange("cellsAlong", options.cellsAlong, 64, 400);
   requireRange("relaxations", options.relaxations, 0, 200);
   const float cell = 1.45f / options.cellsAlong;
   const Box3 box{{-0.90f, -0.06f, -0.36f}, {0.72f, 0.84f, 0.36f}};

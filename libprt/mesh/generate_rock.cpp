@@ -41,6 +41,16 @@ Vec3 rockPoint(const Vec3& direction, const RockOptions& o) {
   return std::max(radius, 0.2f) * direction + shift;
 }
 
+/// One sweep of smoothing: takes off the points and pinches that no weather would leave.
+void weather(TriMesh& mesh) {
+  std::vector<Vec3> sums(mesh.vertexCount(), Vec3(0));
+  std::vector<float> counts(mesh.vertexCount(), 0);
+  for (const UVec3& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) sums[t[i]] += mesh.positions[t[(i + 1) % 3]], ++counts[t[i]];
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+    mesh.positions[v] = 0.6f * mesh.positions[v] + 0.4f * sums[v] / counts[v];
+}
+
 }  // namespace
 
 TriMesh makeRock(const RockOptions& options) {
@@ -50,6 +60,7 @@ TriMesh makeRock(const RockOptions& options) {
   requireRange("octaves", options.octaves, 1, 12);
   TriMesh mesh = makeIcosphere({.radius = 1, .subdivisions = options.subdivisions});
   for (Vec3& p : mesh.positions) p = options.radius * rockPoint(p, options) * Vec3(1.15f, 0.8f, 1.0f);
+  weather(mesh);
   const float low = mesh.bounds().low.y;
   for (Vec3& p : mesh.positions) p.y -= low;
   mesh.normals = angleWeightedNormals(mesh.positions, mesh.triangles);
