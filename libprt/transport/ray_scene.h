@@ -2,6 +2,7 @@
 // The one gateway for rays. Every ray of libprt goes through here: non-finite input is refused and
 // counted (Embree aborts on it), packets are formed, and hits come back in our own terms.
 
+#include "libprt/core/job.h"
 #include "libprt/core/math.h"
 #include "libprt/transport/scene.h"
 
@@ -33,12 +34,18 @@ struct Hit {
 /// (Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
 Vec3 offsetOrigin(const Vec3& p, const Vec3& n);
 
-/// An Embree scene built for robustness over speed. Thread-safe once built.
+/// An Embree scene built for robustness over speed. Thread-safe once built. A ray is refused when a
+/// coordinate is not finite or beyond 1e18, its direction is zero, its tNear is negative or NaN, or
+/// its tFar is NaN; it counts as "hit nothing". The one-origin calls agree with each other to the bit
+/// (blocked exactly where there is a hit) on one machine, whatever the other rays of the call are.
 class RayScene {
  public:
-  /// Keeps no reference to `scene`. Throws GeometryError on non-finite positions, ResourceError when
-  /// the build fails.
+  /// Keeps no reference to `scene`. Built by one thread, so that equal scenes give equal trees and with
+  /// them equal choices between triangles at equal distance. Throws GeometryError when a position is
+  /// not finite or beyond 1e18, ResourceError when the build fails.
   explicit RayScene(const Scene& scene);
+  /// The same, and Cancelled when the job is cancelled meanwhile.
+  RayScene(const Scene& scene, Job& job);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -47,14 +54,15 @@ class RayScene {
   Hit intersect(const Ray& ray) const;
 
   /// Many rays from one origin: blocked[i] = 1 if direction i meets anything. Directions as separate
-  /// coordinates; sorted, coherent sets run faster. Sizes equal.
+  /// coordinates, traced in packets of 16: sets sorted so that 16 neighbours share a solid-angle cell
+  /// run about twice as fast as unsorted ones. Throws ValueError when the sizes differ.
   void occludedFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
                     std::span<const float> dz, std::span<std::uint8_t> blocked) const;
   /// Many rays from one origin, with what they hit.
   void intersectFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
                      std::span<const float> dz, std::span<Hit> hits) const;
 
-  /// Rays refused because they were not finite, since the scene was built. They count as "hit nothing".
+  /// Rays refused since the scene was built.
   std::uint64_t refusedRays() const;
 
  private:

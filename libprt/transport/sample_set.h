@@ -11,22 +11,39 @@
 
 namespace prt {
 
+/// "No such sample" and "no such triangle".
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
 struct SampleSet {
   std::vector<Vec3> origin;           ///< [S] where rays start: already moved off the surface
   std::vector<Vec3> geometricNormal;  ///< [S] unit; visibility is clipped by its plane
   std::vector<Vec3> shadingNormal;    ///< [S] unit; cosines use it
-  std::vector<std::uint32_t> triangle;  ///< [S] a triangle the sample lies on
+  std::vector<std::uint32_t> triangle;  ///< [S] a triangle the sample lies on; kNone when it lies on none
   std::vector<Vec2> barycentric;        ///< [S] its place there: weights of corners 1 and 2
+  /// Empty, or for each of the first back.size() samples the sample on the other side of the same
+  /// surface point, kNone when that side does not reflect.
+  std::vector<std::uint32_t> back;
 
   std::size_t size() const { return origin.size(); }
 };
 
-/// One sample per vertex of the scene's mesh, in order. The geometric normal is the area-weighted mean
-/// of the faces around the vertex's position (all vertices at that position that share the smoothing).
+/// One sample per vertex of the scene's mesh, in order; then, for each vertex of an object whose material
+/// is two-sided, one for its back, with both normals turned over (`back` is empty when there is none).
+///
+/// Geometric normal: angle-weighted mean (Thuermer and Wuethrich 1998) of the faces that meet at the
+/// vertex's *position* and share its smoothing: faces of the same object whose corner there has the same
+/// shading normal. So vertices split at a texture seam get the same sample, and vertices split at a
+/// crease keep the flat sides of the crease. A vertex without faces has its shading normal for both.
+///
+/// Origin: the position, moved along the direction that is as far inside as possible of *all* faces
+/// meeting there, of the other sides of creases and of touching objects too, by 1e-4 of the shortest
+/// edge or a millionth of the coordinates, whichever is more. Inside a corner of flat faces what is
+/// visible does not change with that distance, so the error is that of the faces' curvature over it.
 SampleSet samplesAtVertices(const Scene& scene);
 
 /// `count` points spread over the surface, density proportional to area, stratified; the same seed
-/// gives the same points.
+/// gives the same points. Origins are moved off along the face's normal; the shading normal is the
+/// interpolated one. Front sides only.
 SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t seed);
 
 }  // namespace prt
