@@ -88,9 +88,10 @@ RTCIntersectContext packetContext() {
 
 struct RayScene::Impl {
   RTCScene scene = nullptr;
+  float size = 0;
   mutable std::atomic<std::uint64_t> refused{0};
 
-  explicit Impl(const Scene& from, Job* job) {
+  explicit Impl(const Scene& from, Job* job) : size(from.mesh.bounds().diagonal()) {
     checkPositions(from);
     scene = rtcNewScene(device());
     if (!scene) throw ResourceError("ray tracing scene cannot be created", "Embree", "free some memory");
@@ -221,12 +222,14 @@ void RayScene::intersectFrom(const Vec3& origin, std::span<const float> dx, std:
 
 std::uint64_t RayScene::refusedRays() const { return impl_->refused.load(std::memory_order_relaxed); }
 
-Vec3 offsetOrigin(const Vec3& p, const Vec3& n) {
+float RayScene::size() const { return impl_->size; }
+
+Vec3 offsetOrigin(const Vec3& p, const Vec3& n, float sceneSize) {
   constexpr float kNearZero = 1.0f / 32, kStep = 1.0f / 65536, kUlps = 256;
   Vec3 moved;
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(p[axis]) < kNearZero) {
-      moved[axis] = p[axis] + kStep * n[axis];
+    if (std::abs(p[axis]) < kNearZero * sceneSize) {
+      moved[axis] = p[axis] + kStep * sceneSize * n[axis];
       continue;
     }
     const int ulps = int(kUlps * n[axis]);

@@ -30,9 +30,11 @@ struct Hit {
 };
 
 /// A surface point moved off the surface, along geometric normal `n`, just enough that rays leaving on
-/// that side do not meet the surface they left, at any scale and distance from the origin
-/// (Waechter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection").
-Vec3 offsetOrigin(const Vec3& p, const Vec3& n);
+/// that side do not meet the surface they left: by up to 256 units in the last place of each coordinate,
+/// and at least 1.5e-5 of the scene's size (Waechter and Binder 2019, "A Fast and Robust Method for
+/// Avoiding Self-Intersection"). `sceneSize` is the length that counts as 1: give RayScene::size(), or
+/// small scenes are left too far behind and large ones are not left.
+Vec3 offsetOrigin(const Vec3& p, const Vec3& n, float sceneSize = 1);
 
 /// An Embree scene built for robustness over speed. Thread-safe once built. A ray is refused when a
 /// coordinate is not finite or beyond 1e18, its direction is zero, its tNear is negative or NaN, or
@@ -61,6 +63,9 @@ class RayScene {
   /// Many rays from one origin, with what they hit.
   void intersectFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
                      std::span<const float> dz, std::span<Hit> hits) const;
+
+  /// Diagonal of the scene's bounding box.
+  float size() const;
 
   /// Rays refused since the scene was built.
   std::uint64_t refusedRays() const;

@@ -12,10 +12,11 @@
 namespace prt {
 namespace {
 
-constexpr float kEdgeFraction = 1e-4f;        // offset against the shortest edge at the vertex
-constexpr float kCoordinateFraction = 1e-6f;  // ... and against the size of its coordinates: 8 ulps or more
+constexpr double kInward = 1e-3;              // pull into the vertex's own faces, against their size
+constexpr double kEdgeFraction = 1e-4;        // height above the faces, against the shortest edge
+constexpr double kCoordinateFraction = 1e-6;  // ... and against the size of the coordinates: 8 ulps or more
 constexpr double kSharedSmoothing = 0.9999;   // cosine above which two shading normals are one
-constexpr double kClearance = 0.05;           // least sine between the offset direction and a face
+constexpr double kSteepest = 0.05;            // least sine between the offset direction and a face that counts
 
 /// A triangle corner, sorted by where it is.
 struct Corner {
@@ -27,9 +28,9 @@ struct Corner {
 /// What the vertices need to know about one corner's face.
 struct Wedge {
   Corner corner;
-  DVec3 normal;      // unit
-  double angle;      // of the face at this corner
-  double shortEdge;  // the shorter of the two edges that meet here
+  DVec3 normal;  // unit
+  double angle;  // of the face at this corner
+  DVec3 a, b;    // the two edges that leave this corner
 };
 
 bool positionLess(const Vec3& a, const Vec3& b) {
@@ -67,8 +68,8 @@ Wedge wedgeOf(const TriMesh& mesh, const Corner& corner) {
   const DVec3 b = DVec3(mesh.positions[t[(corner.index + 2) % 3]]) - p;
   const DVec3 n = cross(a, b);
   const double size = length(n);
-  if (!(size > 0)) return {corner, DVec3(0), 0, 0};
-  return {corner, n / size, std::atan2(size, dot(a, b)), std::min(length(a), length(b))};
+  if (!(size > 0)) return {corner, DVec3(0), 0, a, b};
+  return {corner, n / size, std::atan2(size, dot(a, b)), a, b};
 }
 
 /// The faces around one position that have an area.
@@ -87,29 +88,33 @@ double leastCosine(const DVec3& d, std::span<const DVec3> normals) {
   return least;
 }
 
-/// The direction whose least cosine to the normals is (nearly) the largest: towards the centre of their
-/// smallest enclosing ball (Badoiu and Clarkson 2003: step 1/i towards the farthest point).
+/// The direction whose least cosine to the normals is the largest: towards the point of their convex hull
+/// nearest to zero, found by steps towards the vertex of the hull that is farthest back (Gilbert 1966).
 DVec3 innermostDirection(const DVec3& start, std::span<const DVec3> normals) {
-  DVec3 centre = start;
-  for (int i = 1; i <= 64; ++i) {
-    const auto farthest = std::min_element(normals.begin(), normals.end(), [&](const DVec3& a, const DVec3& b) {
-      return dot(centre, a) < dot(centre, b);
+  DVec3 nearest = normals.empty() ? start : normals.front();
+  for (int i = 0; i < 256; ++i) {
+    const DVec3 back = *std::min_element(normals.begin(), normals.end(), [&](const DVec3& a, const DVec3& b) {
+      return dot(nearest, a) < dot(nearest, b);
     });
-    centre += (*farthest - centre) / double(i + 1);
+    const DVec3 step = back - nearest;
+    const double gain = -dot(nearest, step);
+    if (!(gain > 1e-12)) break;
+    nearest += step * std::min(1.0, gain / dot(step, step));
   }
-  const double size = length(centre);
-  return size > 0 ? centre / size : start;
+  const double size = length(nearest);
+  return size > 1e-9 ? nearest / size : start;
 }
 
-/// Where to move a vertex so that it leaves every face around it on the outer side: all faces if that
-/// can be, else those of its own object, else along its normal alone.
-DVec3 offsetDirection(const DVec3& normal, std::span<const DVec3> all, std::span<const DVec3> own) {
-  for (const std::span<const DVec3> normals : {all, own}) {
-    if (leastCosine(normal, normals) > 0.5) return normal;
-    const DVec3 direction = innermostDirection(normal, normals);
-    if (leastCosine(direction, normals) > 0) return direction;
-  }
-  return normal;
+/// How a vertex leaves the surface: `pull` along its own faces, then the shortest way (roughly) to a height
+/// of `clearance` over the planes of all `faces`, if there is a side from which all are seen from outside.
+DVec3 leave(const DVec3& pull, const DVec3& normal, std::span<const DVec3> faces, double clearance) {
+  DVec3 direction = normal;
+  if (leastCosine(normal, faces) < 0.5) direction = innermostDirection(normal, faces);
+  if (leastCosine(direction, faces) <= 0) return pull + normal * clearance;
+  double distance = 0;
+  for (const DVec3& n : faces)
+    distance = std::max(distance, (clearance - dot(pull, n)) / std::max(dot(direction, n), kSteepest));
+  return pull + direction * distance;
 }
 
 void resize(SampleSet& set, std::size_t count) {
@@ -123,36 +128,58 @@ void resize(SampleSet& set, std::size_t count) {
 /// A sample that lies on no triangle, as a vertex without faces does.
 void setFree(SampleSet& set, std::size_t sample, const Vec3& p, const Vec3& normal) {
   set.shadingNormal[sample] = set.geometricNormal[sample] = normal;
-  set.origin[sample] = offsetOrigin(p, normal);
+  set.origin[sample] = p;
+}
+
+/// The faces around a position as one of its vertices sees them from one side.
+struct Umbrella {
+  DVec3 normal{0};             // geometric normal of the vertex
+  DVec3 centre{0};             // mean of its own faces' centres, from the vertex
+  std::vector<DVec3> faces;    // normals of those that bound where it may be moved to
+  double shortestEdge = std::numeric_limits<double>::infinity();
+};
+
+Umbrella umbrellaOf(const Scene& scene, std::uint32_t vertex, double side, std::span<const Wedge> wedges) {
+  const DVec3 shading(scene.mesh.normals[vertex]);
+  Umbrella umbrella;
+  double angles = 0;
+  const auto own = [&](const Wedge& wedge) {  // same object, same smoothing
+    return scene.vertexObject[wedge.corner.vertex] == scene.vertexObject[vertex] &&
+           dot(DVec3(scene.mesh.normals[wedge.corner.vertex]), shading) > kSharedSmoothing;
+  };
+  for (const Wedge& wedge : wedges) {
+    umbrella.shortestEdge = std::min({umbrella.shortestEdge, length(wedge.a), length(wedge.b)});
+    if (!own(wedge)) continue;
+    umbrella.normal += wedge.angle * wedge.normal;
+    umbrella.centre += wedge.angle * (wedge.a + wedge.b) / 3.0;
+    angles += wedge.angle;
+  }
+  umbrella.normal = side * (length(umbrella.normal) > 1e-12 ? normalize(umbrella.normal) : shading);
+  umbrella.centre /= std::max(angles, 1e-12);
+  const double level = 1e-6 * umbrella.shortestEdge;
+  for (const Wedge& wedge : wedges)  // another face matters when it rises above the vertex's plane
+    if (own(wedge) || std::max(dot(wedge.a, umbrella.normal), dot(wedge.b, umbrella.normal)) > level)
+      umbrella.faces.push_back(side * wedge.normal);
+  return umbrella;
 }
 
 /// The sample of one vertex, or of its back (side -1), from the faces around its position.
 void setVertex(SampleSet& set, std::size_t sample, const Scene& scene, std::uint32_t vertex, double side,
                std::span<const Wedge> wedges) {
-  const TriMesh& mesh = scene.mesh;
-  const DVec3 shading(mesh.normals[vertex]);
-  DVec3 sum(0);
-  double shortest = std::numeric_limits<double>::infinity();
-  std::vector<DVec3> all, own;
-  for (const Wedge& wedge : wedges) {
-    const bool mine = scene.vertexObject[wedge.corner.vertex] == scene.vertexObject[vertex];
-    all.push_back(side * wedge.normal);
-    shortest = std::min(shortest, wedge.shortEdge);
-    if (!mine) continue;
-    own.push_back(side * wedge.normal);
-    if (dot(DVec3(mesh.normals[wedge.corner.vertex]), shading) > kSharedSmoothing) sum += wedge.angle * wedge.normal;
-    if (wedge.corner.vertex != vertex) continue;
-    set.triangle[sample] = wedge.corner.triangle;
-    set.barycentric[sample] = {wedge.corner.index == 1 ? 1.0f : 0.0f, wedge.corner.index == 2 ? 1.0f : 0.0f};
-  }
-  const DVec3 normal = side * (length(sum) > 1e-12 ? normalize(sum) : shading);
-  const DVec3 direction = offsetDirection(normal, all, own);
-  const DVec3 p(mesh.positions[vertex]);
+  const Umbrella umbrella = umbrellaOf(scene, vertex, side, wedges);
+  const DVec3 p(scene.mesh.positions[vertex]);
   const double coordinates = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const double clearance = std::max(shortest * kEdgeFraction, coordinates * kCoordinateFraction);
-  set.origin[sample] = Vec3(p + direction * (clearance / std::max(leastCosine(direction, all), kClearance)));
-  set.geometricNormal[sample] = Vec3(normal);
-  set.shadingNormal[sample] = Vec3(side * shading);
+  const double clearance = std::max(umbrella.shortestEdge * kEdgeFraction, coordinates * kCoordinateFraction);
+  const DVec3 pull = kInward * (umbrella.centre - dot(umbrella.centre, umbrella.normal) * umbrella.normal);
+  set.origin[sample] = Vec3(p + leave(pull, umbrella.normal, umbrella.faces, clearance));
+  set.geometricNormal[sample] = Vec3(umbrella.normal);
+  set.shadingNormal[sample] = float(side) * scene.mesh.normals[vertex];
+  for (const Wedge& wedge : wedges)
+    if (wedge.corner.vertex == vertex) {
+      set.triangle[sample] = wedge.corner.triangle;
+      set.barycentric[sample] = {wedge.corner.index == 1 ? 1.0f : 0.0f, wedge.corner.index == 2 ? 1.0f : 0.0f};
+      break;
+    }
 }
 
 /// Numbers the samples on the backs of two-sided objects.
@@ -203,6 +230,7 @@ SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t 
 
   SampleSet set;
   resize(set, count);
+  const float size = mesh.bounds().diagonal();
   for (std::size_t i = 0; i < count; ++i) {
     const double at = std::min((double(i) + hashUniform(seed, i, 0)) / double(count) * total, std::nextafter(total, 0.0));
     const auto t = std::size_t(std::upper_bound(area.begin(), area.end(), at) - area.begin());
@@ -215,7 +243,7 @@ SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t 
     const Vec3 face = Vec3(normalize(DVec3(mesh.areaNormal(t))));
     set.geometricNormal[i] = face;
     set.shadingNormal[i] = length(n) > 1e-6f ? normalize(n) : face;
-    set.origin[i] = offsetOrigin(p, face);
+    set.origin[i] = offsetOrigin(p, face, size);
     set.triangle[i] = std::uint32_t(t);
     set.barycentric[i] = b;
   }

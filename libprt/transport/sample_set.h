@@ -35,10 +35,12 @@ struct SampleSet {
 /// shading normal. So vertices split at a texture seam get the same sample, and vertices split at a
 /// crease keep the flat sides of the crease. A vertex without faces has its shading normal for both.
 ///
-/// Origin: the position, moved along the direction that is as far inside as possible of *all* faces
-/// meeting there, of the other sides of creases and of touching objects too, by 1e-4 of the shortest
-/// edge or a millionth of the coordinates, whichever is more. Inside a corner of flat faces what is
-/// visible does not change with that distance, so the error is that of the faces' curvature over it.
+/// Origin: the position, pulled into the vertex's own faces by 1e-3 of their size (a border or a crease
+/// that lies exactly on another surface then sees that surface from its right side), and moved to a height
+/// of 1e-4 of the shortest edge, or a millionth of the coordinates, over the planes of its own faces and of
+/// all faces at its position that rise above them (the other side of a concave crease, touching objects).
+/// In a corner of flat faces what is visible is the same at any distance from the corner, so the error is
+/// that of the faces' curvature over 1e-3 of an edge.
 SampleSet samplesAtVertices(const Scene& scene);
 
 /// `count` points spread over the surface, density proportional to area, stratified; the same seed

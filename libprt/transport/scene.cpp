@@ -42,7 +42,7 @@ void checkMesh(const SceneObject& object) {
 
 void appendVertices(const TriMesh& from, const Mat4& transform, const Mat3& linear, TriMesh& to) {
   // Normals are covectors: the inverse transpose keeps them outside, mirrored maps included.
-  const glm::dmat3 normalMap = glm::inverseTranspose(glm::dmat3(linear));
+  const glm::dmat3 normalMap = transpose(inverse(glm::dmat3(linear)));
   for (const Vec3& p : from.positions) to.positions.push_back(Vec3(transform * Vec4(p, 1)));
   for (const Vec3& n : from.normals) {
     const DVec3 turned = normalMap * DVec3(n);

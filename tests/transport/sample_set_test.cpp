@@ -98,12 +98,12 @@ TEST(SamplesAtVertices, VerticesInACornerSeeTheOtherSide) {
 TEST(SamplesAtVertices, SharpValleysAreLeftOnTheirOuterSide) {
   for (const double halfOpening : {0.5, 2.0, 10.0}) {  // degrees
     const float s = float(std::sin(radians(halfOpening))), c = float(std::cos(radians(halfOpening)));
-    TriMesh mesh = grid({0, 0, -50}, {0, 0, 100}, Vec3(s, c, 0) * 10.0f, 20, 4);     // faces -x
-    append(mesh, grid({0, 0, -50}, Vec3(-s, c, 0) * 10.0f, {0, 0, 100}, 4, 20));     // faces +x
+    TriMesh mesh = grid({0, 0, -64}, {0, 0, 128}, Vec3(s, c, 0) * 10.0f, 16, 4);     // faces -x
+    append(mesh, grid({0, 0, -64}, Vec3(-s, c, 0) * 10.0f, {0, 0, 128}, 4, 16));     // faces +x
     const Scene scene = sceneOf(mesh);
     const RayScene rays(scene);
     const SampleSet set = samplesAtVertices(scene);
-    for (std::size_t v = 5; v < 16; ++v) {
+    for (std::size_t v = 3; v < 14; ++v) {
       ASSERT_EQ(scene.mesh.positions[v].y, 0);
       const Hit left = rays.intersect({set.origin[v], 0, {-1, 0, 0}}), right = rays.intersect({set.origin[v], 0, {1, 0, 0}});
       ASSERT_TRUE(left.valid() && right.valid());
@@ -111,6 +111,23 @@ TEST(SamplesAtVertices, SharpValleysAreLeftOnTheirOuterSide) {
       EXPECT_LT(scene.mesh.areaNormal(right.triangle).x, 0);
     }
   }
+}
+
+/// A box standing exactly on the ground: the lower edge of its sides sees ground below and sky above.
+TEST(SamplesAtVertices, EdgesThatLieOnAnotherSurfaceSeeItsFront) {
+  TriMesh mesh = box({-1, 0, -1}, {1, 2, 1}, 4);
+  append(mesh, grid({-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, 7, 7));
+  const Scene scene = sceneOf(mesh);
+  const RayScene rays(scene);
+  const SampleSet set = samplesAtVertices(scene);
+  int tested = 0;
+  for (std::size_t v = 0; v < set.size(); ++v) {
+    const Vec3 p = scene.mesh.positions[v], n = set.geometricNormal[v];
+    if (p.y != 0 || n.y != 0) continue;
+    EXPECT_NEAR(blockedShare(rays, set, v, 4000), 0.5, 0.035);
+    ++tested;
+  }
+  EXPECT_EQ(tested, 20);
 }
 
 TEST(SamplesAtVertices, TwoSidedObjectsGetSamplesOnTheirBacks) {
@@ -158,7 +175,7 @@ TEST(SamplesOnSurface, DensityFollowsAreaAndPointsLieOnTheSurface) {
     const Vec2 b = set.barycentric[i];
     EXPECT_GE(std::min({b.x, b.y, 1 - b.x - b.y}), -1e-6f);
     const Vec3 p = (1 - b.x - b.y) * scene.mesh.positions[t.x] + b.x * scene.mesh.positions[t.y] + b.y * scene.mesh.positions[t.z];
-    EXPECT_LT(length(p - set.origin[i]), 1e-4f);
+    EXPECT_LT(length(p - set.origin[i]), 2e-5f * scene.mesh.bounds().diagonal());
     EXPECT_GT(set.origin[i].z, 0);
   }
   EXPECT_EQ(right, 3000u);  // strata: exactly the area's share
