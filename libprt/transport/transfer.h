@@ -43,9 +43,15 @@ struct Transfer {
 /// Irradiance at each sample, [S]. `normals` (shading normals, [S]) serve the forms that do not hold
 /// the cosine (None, Visibility, Matrix: E = sum of A_l Y_lm(n) (T L)_lm).
 std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals);
+/// The same at some samples only, in the order of `samples` (`normals` is still [S]).
+std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals,
+                            std::span<const std::uint32_t> samples);
 
 /// Transferred incident radiance of every sample, object frame: result[s * n^2 + i]. Not for the
 /// Diffuse form (throws ValueError).
 std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light);
+/// The same at some samples only: result[i * n^2 + k] for samples[i]. A picture needs only what it shows.
+std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light,
+                                     std::span<const std::uint32_t> samples);
 
 }  // namespace prt
