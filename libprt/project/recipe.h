@@ -23,13 +23,18 @@ namespace prt {
 /// Version of the JSON layout that this program writes; it reads this one and those before.
 inline constexpr int kRecipeVersion = 1;
 
+enum class MeshOrientation { Keep, Consistent, Outward };
+
+/// Where a mesh comes from and how it is repaired (see mesh/repair.h).
 struct MeshRecipe {
   std::string path = "builtin:vase";  ///< file relative to the recipe, or "builtin:NAME"
   float detail = 1;                   ///< resolution of a built-in mesh, relative to the generator's own
   std::uint64_t seed = 1;             ///< of a built-in mesh's noise
-  bool repair = true;                 ///< false: anything that would need repair is an error
+  bool weld = true;                   ///< merge vertices at one position
+  MeshOrientation orientation = MeshOrientation::Outward;
+  bool splitNonManifold = false;
+  bool keepNormals = true;            ///< of the file, where it has them
   float crease = 180;                 ///< degrees: computed normals are not smoothed across sharper edges
-  bool fileNormals = true;            ///< keep the normals that the file has
   bool operator==(const MeshRecipe&) const = default;
 };
 

@@ -43,7 +43,7 @@ const char* const kCostDirect = "rebakes transfer";
 const char* const kCostBounces = "rebakes the bounces only";
 const char* const kCostLight = "none: relights";
 
-const std::vector<std::string> kMappings{"auto", "latlong", "vertical-cross", "horizontal-cross", "angular", "strip"};
+const std::vector<std::string> kMappings{"auto", "latlong", "vcross", "hcross", "angular", "hstrip", "vstrip"};
 const std::vector<std::string> kMethods{"auto", "diffuse", "glossy"};
 const std::vector<std::string> kWindows{"none", "hann", "lanczos", "fejer"};
 
@@ -59,12 +59,17 @@ const std::vector<Row<MeshRecipe>> kMesh{
      kCostMesh, "Resolution of a built-in mesh relative to its usual one; vertices grow with the square."},
     {"seed", [](MeshRecipe& m) -> FieldRef { return &m.seed; }, ParameterType::Integer, "", 0, 4294967295.0, {},
      kCostMesh, "Seed of a built-in mesh that is made from noise (rock)."},
-    {"repair", [](MeshRecipe& m) -> FieldRef { return &m.repair; }, ParameterType::Boolean, "", 0, 0, {}, kCostMesh,
-     "Repair what can be repaired and report it; off, a broken mesh is an error."},
+    {"weld", [](MeshRecipe& m) -> FieldRef { return &m.weld; }, ParameterType::Boolean, "", 0, 0, {}, kCostMesh,
+     "Merge vertices at exactly one position; off, the file's vertices are kept as they are."},
+    {"orientation", [](MeshRecipe& m) -> FieldRef { return choice(m.orientation); }, ParameterType::Choice, "", 0, 0,
+     {"keep", "consistent", "outward"}, kCostMesh,
+     "Which way faces look: as in the file, neighbours alike, or alike and closed parts outwards."},
+    {"splitNonManifold", [](MeshRecipe& m) -> FieldRef { return &m.splitNonManifold; }, ParameterType::Boolean, "", 0,
+     0, {}, kCostMesh, "Cut the surface where more than two faces meet in an edge."},
+    {"keepNormals", [](MeshRecipe& m) -> FieldRef { return &m.keepNormals; }, ParameterType::Boolean, "", 0, 0, {},
+     kCostMesh, "Use the normals in the file where it has usable ones."},
     {"crease", [](MeshRecipe& m) -> FieldRef { return &m.crease; }, ParameterType::Number, "degrees", 0, 180, {},
-     kCostMesh, "Edges sharper than this stay sharp when normals are computed; 180 smooths everything."},
-    {"fileNormals", [](MeshRecipe& m) -> FieldRef { return &m.fileNormals; }, ParameterType::Boolean, "", 0, 0, {},
-     kCostMesh, "Use the normals in the file where it has them."},
+     kCostMesh, "Edges sharper than this stay sharp where normals are computed; 180 smooths everything."},
 };
 
 const std::vector<Row<TransformRecipe>> kTransform{

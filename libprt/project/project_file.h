@@ -1,0 +1,119 @@
+#pragma once
+// The project file (.prt): one SQLite database with the recipe as JSON and the products as compressed,
+// checksummed chunks. docs/file-format.md describes it for readers in other languages.
+//
+// Saved state and work. The file under its own name is only ever a complete, saved project. Whatever is
+// written goes to a working copy beside it, FILE.work, which save() swaps in atomically. A process that
+// dies leaves the saved project as it was; the working copy, brought back to its last commit by SQLite,
+// is where the next bake goes on.
+
+#include "libprt/core/job.h"
+#include "libprt/project/product.h"
+#include "libprt/project/recipe.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+class Database;
+
+/// Version of the schema that this program writes (SQLite's user_version); it reads no newer one.
+inline constexpr int kProjectFormat = 1;
+
+struct ArrayInfo {
+  std::string name;
+  DType dtype = DType::f32;
+  std::vector<std::int64_t> shape;
+  std::int64_t bytes = 0;   ///< uncompressed
+  std::int64_t stored = 0;  ///< compressed
+  std::string checksum;     ///< of the stored chunks: equal checksums mean equal contents
+};
+
+struct ProductInfo {
+  std::string stage;
+  std::string key;
+  bool checkpoint = false;  ///< unfinished work rather than a product
+  int level = 0;
+  int levels = 0;
+  std::string meta;  ///< JSON
+  std::vector<ArrayInfo> arrays;
+};
+
+class ProjectFile : public ProductStore {
+ public:
+  /// Opens a saved project; writing begins a working copy. Throws FileError: missing, a folder, no
+  /// project, truncated, newer than this program, damaged.
+  static std::unique_ptr<ProjectFile> open(const std::filesystem::path& file);
+
+  /// Opens for baking: the saved project, with work that was left behind by a cancelled or killed bake
+  /// of it, or a new one when there is none. Throws FileError also when another process works on it.
+  static std::unique_ptr<ProjectFile> openForWork(const std::filesystem::path& file);
+
+  ~ProjectFile() override;
+
+  const std::filesystem::path& file() const { return file_; }
+  static std::filesystem::path workFile(const std::filesystem::path& file);
+  /// Work of an earlier process was found.
+  bool resumed() const { return resumed_; }
+  bool hasWork() const { return work_ != nullptr; }
+
+  const Recipe& recipe() const { return recipe_; }
+  void setRecipe(const Recipe& recipe);
+
+  std::unique_ptr<Stored> find(const std::string& stage, const std::string& key) override;
+  void put(const std::string& stage, const std::string& key, const Stored& stored) override;
+  std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override;
+  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override;
+  std::string sourceHash(const std::string& path) override;
+  void putSourceHash(const std::string& path, const std::string& hash) override;
+
+  std::vector<ProductInfo> contents();
+
+  /// Removes every product and checkpoint whose key is not among these (Pipeline::liveKeys), and gives
+  /// the space back.
+  void keepOnly(const std::set<std::string>& keys);
+
+  /// Makes the working copy the saved project: flushed to disk, verified, then renamed over it.
+  void save();
+  /// Throws the working copy away.
+  void discardWork();
+
+  /// Bytes in this file, and of them in products.
+  std::int64_t bytes() const;
+
+  struct Verified {
+    int products = 0;
+    int arrays = 0;
+    std::int64_t chunks = 0;
+    std::int64_t bytes = 0;  ///< uncompressed
+  };
+  /// Reads everything and compares every checksum. Throws FileError naming what is damaged.
+  static Verified verify(const std::filesystem::path& file, Job& job);
+
+ private:
+  explicit ProjectFile(std::filesystem::path file);
+
+  Database& current();
+  Database& work();
+  bool openLeftover(const std::string& base);
+  void beginWork();
+  void readProject();
+  void writeProject();
+  std::unique_ptr<Stored> read(const std::string& stage, const std::string& key, const std::string& role);
+  void write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored);
+
+  std::filesystem::path file_;
+  std::unique_ptr<Database> saved_, work_;
+  Recipe recipe_;
+  std::map<std::string, std::string> sources_;
+  std::string base_;  // checksum of the saved project that the working copy began from
+  bool resumed_ = false;
+};
+
+}  // namespace prt

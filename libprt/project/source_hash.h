@@ -1,0 +1,13 @@
+#pragma once
+// Content hashes of the files that a recipe names, remembered while a file does not change on disk.
+// Internal to project/.
+
+#include <filesystem>
+#include <string>
+
+namespace prt {
+
+/// Hash of a file and of the files that it refers to (the buffers of a .gltf). Throws FileError.
+std::string hashSource(const std::filesystem::path& file);
+
+}  // namespace prt
