@@ -3,6 +3,8 @@
 #include "libprt/mesh/generate_check.h"
 #include "libprt/mesh/generate_grid.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <unordered_map>
@@ -10,6 +12,11 @@
 
 namespace prt {
 namespace {
+
+/// A count at `detail` times the usual resolution, within a shape's limits.
+int scaled(int usual, float detail, int low, int high) {
+  return std::clamp(int(std::lround(double(usual) * detail)), low, high);
+}
 
 /// The twelve corners of an icosahedron inside the unit sphere, two of them on the Y axis.
 TriMesh icosahedron() {
@@ -94,8 +101,9 @@ TriMesh makePlane(const PlaneOptions& options) {
   return mesh;
 }
 
-TriMesh makeGround() {
-  return makePlane({.width = 12, .depth = 12, .columns = 64, .rows = 64, .grading = 0.8f});
+TriMesh makeGround(float detail) {
+  const int cells = scaled(64, detail, 2, 4096);
+  return makePlane({.width = 12, .depth = 12, .columns = cells, .rows = cells, .grading = 0.8f});
 }
 
 TriMesh makeBox(const BoxOptions& options) {
@@ -139,16 +147,47 @@ TriMesh makeTorus(const TorusOptions& options) {
 
 namespace {
 
-const std::pair<const char*, TriMesh (*)()> kBuiltins[] = {
-    {"bird", [] { return makeBird(); }},
-    {"box", [] { return makeBox(); }},
-    {"ground", [] { return makeGround(); }},
-    {"icosphere", [] { return makeIcosphere(); }},
-    {"plane", [] { return makePlane(); }},
-    {"rock", [] { return makeRock(); }},
-    {"sphere", [] { return makeSphere(); }},
-    {"torus", [] { return makeTorus(); }},
-    {"vase", [] { return makeVase(); }},
+/// Subdivisions whose edges are about 1 / detail as long.
+int subdivided(int usual, float detail) { return std::clamp(usual + int(std::lround(std::log2(detail))), 0, 9); }
+
+using Maker = TriMesh (*)(float detail, std::uint32_t seed);
+
+const std::pair<const char*, Maker> kBuiltins[] = {
+    {"bird",
+     [](float d, std::uint32_t) {
+       const BirdOptions usual;
+       return makeBird({.cellsAlong = scaled(usual.cellsAlong, d, 64, 400)});
+     }},
+    {"box", [](float d, std::uint32_t) { return makeBox({.cells = scaled(BoxOptions{}.cells, d, 1, 1024)}); }},
+    {"ground", [](float d, std::uint32_t) { return makeGround(d); }},
+    {"icosphere",
+     [](float d, std::uint32_t) {
+       return makeIcosphere({.subdivisions = subdivided(IcosphereOptions{}.subdivisions, d)});
+     }},
+    {"plane",
+     [](float d, std::uint32_t) {
+       const int cells = scaled(PlaneOptions{}.columns, d, 1, 4096);
+       return makePlane({.columns = cells, .rows = cells});
+     }},
+    {"rock",
+     [](float d, std::uint32_t seed) {
+       return makeRock({.subdivisions = subdivided(RockOptions{}.subdivisions, d), .seed = seed});
+     }},
+    {"sphere",
+     [](float d, std::uint32_t) {
+       const SphereOptions usual;
+       return makeSphere({.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 2, 4096)});
+     }},
+    {"torus",
+     [](float d, std::uint32_t) {
+       const TorusOptions usual;
+       return makeTorus({.segments = scaled(usual.segments, d, 3, 4096), .sides = scaled(usual.sides, d, 3, 4096)});
+     }},
+    {"vase",
+     [](float d, std::uint32_t) {
+       const VaseOptions usual;
+       return makeVase({.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 24, 4096)});
+     }},
 };
 
 }  // namespace
@@ -159,10 +198,11 @@ std::vector<std::string> builtinMeshNames() {
   return names;
 }
 
-TriMesh makeBuiltinMesh(const std::string& name) {
+TriMesh makeBuiltinMesh(const std::string& name, float detail, std::uint32_t seed) {
+  if (!(detail >= 0.05f && detail <= 16)) throw ValueError("detail is out of range", name, "use 0.05 to 16");
   std::string choices;
   for (const auto& [known, make] : kBuiltins) {
-    if (name == known) return make();
+    if (name == known) return make(detail, seed);
     choices += (choices.empty() ? "" : ", ") + std::string(known);
   }
   throw ValueError("no built-in shape is called '" + name + "'", "mesh", "choose from " + choices);

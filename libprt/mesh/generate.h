@@ -40,7 +40,7 @@ struct PlaneOptions {
 TriMesh makePlane(const PlaneOptions& options = {});
 
 /// The ground of the built-in scenes: a large graded plane.
-TriMesh makeGround();
+TriMesh makeGround(float detail = 1);
 
 /// Box centred at the origin with sharp edges (three vertices per corner). UV: an unfolded cross.
 struct BoxOptions {
@@ -93,7 +93,9 @@ TriMesh makeRock(const RockOptions& options = {});
 /// The shapes above by name, with their default options, for recipes and command lines:
 /// "bird", "box", "ground", "icosphere", "plane", "rock", "sphere", "torus", "vase".
 std::vector<std::string> builtinMeshNames();
-/// Throws ValueError, naming the choices, when there is none of that name.
-TriMesh makeBuiltinMesh(const std::string& name);
+/// `detail` scales the resolution along each direction, 0.05..16, as far as a shape's limits allow
+/// (subdivided shapes take the nearest power of two); `seed` serves shapes made from noise. Throws
+/// ValueError, naming the choices, when there is none of that name.
+TriMesh makeBuiltinMesh(const std::string& name, float detail = 1, std::uint32_t seed = 1);
 
 }  // namespace prt

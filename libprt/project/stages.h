@@ -55,15 +55,15 @@ struct Stage {
   std::string name;
   std::string makes;                ///< one line for people
   int version = 1;                  ///< raised when the same inputs give another product
-  std::vector<std::string> inputs;  ///< stages
+  std::vector<std::string> inputs = {};  ///< stages
   /// Recipe paths, or sections meaning all paths in them: "objects[].mesh", "transfer.bands".
-  std::vector<std::string> reads;
+  std::vector<std::string> reads = {};
   /// Of `reads`, those of which more only extends the work: a checkpoint serves any value of them.
-  std::vector<std::string> extends;
+  std::vector<std::string> extends = {};
   bool stored = true;    ///< kept in the project; false for what is quicker made than read
   bool previews = true;  ///< quick enough to be run on every preview of its inputs
-  std::function<ProductPtr(StageRun&)> make;
-  std::function<ProductPtr(ProductData)> load;  ///< throws FileError when the data cannot be right
+  std::function<ProductPtr(StageRun&)> make = {};
+  std::function<ProductPtr(ProductData)> load = {};  ///< throws FileError when the data cannot be right
 };
 
 /// The pipeline, inputs before users.

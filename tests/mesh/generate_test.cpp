@@ -86,6 +86,16 @@ TEST_P(BuiltinMesh, IsTheSameEveryTime) {
   EXPECT_EQ(one.triangles, two.triangles);
 }
 
+TEST_P(BuiltinMesh, DetailScalesTheResolution) {
+  const std::size_t usual = makeBuiltinMesh(GetParam()).vertexCount();
+  const double coarse = double(makeBuiltinMesh(GetParam(), 0.5f).vertexCount()) / double(usual);
+  const double fine = double(makeBuiltinMesh(GetParam(), 2).vertexCount()) / double(usual);
+  EXPECT_GT(fine, 1.5);
+  EXPECT_LT(fine, 5);
+  EXPECT_LT(coarse, GetParam() == "box" ? 1.1 : 0.6);  // a box has one cell a side already
+  EXPECT_THROW(makeBuiltinMesh(GetParam(), 0), ValueError);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, BuiltinMesh, testing::ValuesIn(builtinMeshNames()),
                          [](const auto& shape) { return shape.param; });
 
