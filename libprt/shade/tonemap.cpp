@@ -15,15 +15,6 @@ float displayed(float radiance, float gain, ToneCurve curve) {
 
 }  // namespace
 
-float encodeSrgb(float linear) {
-  if (linear == 1) return 1;  // the formula rounds to less
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float decodeSrgb(float encoded) {
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 float filmicCurve(float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
 
 Rgb toDisplay(const Rgb& radiance, const ToneSettings& tone) {

@@ -3,6 +3,7 @@
 
 #include "libprt/core/image.h"
 #include "libprt/core/math.h"
+#include "libprt/core/srgb.h"
 
 namespace prt {
 
@@ -15,10 +16,6 @@ struct ToneSettings {
   float exposure = 0;  ///< stops: radiance is multiplied by 2^exposure first
   ToneCurve curve = ToneCurve::Linear;
 };
-
-/// sRGB transfer function (IEC 61966-2-1) of a value in 0..1, and back.
-float encodeSrgb(float linear);
-float decodeSrgb(float encoded);
 
 /// The rational curve of ToneCurve::Filmic for x >= 0; tends to 1.03, so clip afterwards.
 float filmicCurve(float x);
