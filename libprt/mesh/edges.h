@@ -1,9 +1,12 @@
 #pragma once
-// The undirected edges of a triangle list, non-manifold ones included.
+// The undirected edges of triangles or polygons, non-manifold ones included, and the fans of corners
+// around their vertices.
 
 #include "libprt/core/math.h"
+#include "libprt/mesh/union_find.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,37 +17,52 @@ inline std::uint64_t edgeKey(std::uint32_t a, std::uint32_t b) {
   return a < b ? (std::uint64_t(a) << 32) | b : (std::uint64_t(b) << 32) | a;
 }
 
-/// True when the triangle runs from a to b (not from b to a) along that edge.
-inline bool followsEdge(const UVec3& t, std::uint32_t a, std::uint32_t b) {
-  return (t.x == a && t.y == b) || (t.y == a && t.z == b) || (t.z == a && t.x == b);
-}
-
-/// An edge a < b with the triangles at it, in rising order.
+/// An edge a < b. Its sides are the corners that start a walk along it inside their face, in rising
+/// order; in a list of triangles, corner 3 f + i is corner i of triangle f.
 struct MeshEdge {
   std::uint32_t a, b;
-  std::span<const std::uint32_t> faces;
+  std::span<const std::uint32_t> sides;
 
-  std::size_t faceCount() const { return faces.size(); }
+  std::size_t faceCount() const { return sides.size(); }
+  std::uint32_t triangle(std::size_t side) const { return sides[side] / 3; }
 };
 
-/// All edges of a mesh, sorted by (a, b). Edges of a triangle from a vertex to itself are left out.
-/// O(F) up to the sort's logarithm.
+/// All edges of a mesh, sorted by (a, b). Sides from a vertex to itself are left out. Near linear.
 class MeshEdges {
  public:
   explicit MeshEdges(std::span<const UVec3> triangles);
+  /// Polygons: corners of face f are faceStart[f] .. faceStart[f+1] - 1 of cornerVertex. Faces for which
+  /// `skip` is true take no part (empty = none is skipped).
+  MeshEdges(std::span<const std::uint32_t> faceStart, std::span<const std::uint32_t> cornerVertex,
+            const std::vector<bool>& skip);
 
-  std::size_t size() const { return starts_.size() - 1; }
+  std::size_t size() const { return keys_.size(); }
   MeshEdge operator[](std::size_t edge) const {
     const std::size_t first = starts_[edge], last = starts_[edge + 1];
-    return {std::uint32_t(keys_[edge] >> 32), std::uint32_t(keys_[edge]), {faces_.data() + first, last - first}};
+    return {std::uint32_t(keys_[edge] >> 32), std::uint32_t(keys_[edge]), {sides_.data() + first, last - first}};
   }
   /// Index of the edge between two vertices; size() when there is none. O(log E).
   std::size_t find(std::uint32_t a, std::uint32_t b) const;
 
  private:
+  struct Side {
+    std::uint64_t key;
+    std::uint32_t corner;
+  };
+  void build(std::vector<Side>& sides);
+
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> starts_;
-  std::vector<std::uint32_t> faces_;
+  std::vector<std::uint32_t> sides_;
 };
+
+/// The corner after a corner in its triangle.
+inline std::uint32_t nextInTriangle(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+/// Joins corners at one vertex whose faces meet in an edge for which `joins` is true: afterwards each set
+/// is a fan of faces around its vertex.
+UnionFind cornerFans(const MeshEdges& edges, std::span<const std::uint32_t> cornerVertex,
+                     const std::function<std::uint32_t(std::uint32_t)>& nextCorner,
+                     const std::function<bool(const MeshEdge&)>& joins);
 
 }  // namespace prt

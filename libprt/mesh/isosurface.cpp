@@ -135,9 +135,8 @@ void flipTowardsDelaunay(TriMesh& mesh) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const MeshEdge e = edges[i];
     if (e.faceCount() != 2) continue;
-    const std::uint32_t f0 = e.faces[0], f1 = e.faces[1];
+    const std::uint32_t f0 = e.triangle(0), f1 = e.triangle(1);
     if (touched[f0] || touched[f1]) continue;
-    // Triangle 0 runs a -> b, triangle 1 b -> a.
     const std::uint32_t c = cornerOpposite(mesh.triangles[f0], e.a, e.b);
     const std::uint32_t d = cornerOpposite(mesh.triangles[f1], e.a, e.b);
     const auto& p = mesh.positions;
@@ -145,7 +144,7 @@ void flipTowardsDelaunay(TriMesh& mesh) {
     if (c == d || present.count(edgeKey(c, d))) continue;
     const Vec3 n0 = cross(p[d] - p[c], p[e.b] - p[c]), n1 = cross(p[c] - p[d], p[e.a] - p[d]);
     const Vec3 before = mesh.areaNormal(f0) + mesh.areaNormal(f1);
-    const bool ab = followsEdge(mesh.triangles[f0], e.a, e.b);
+    const bool ab = mesh.triangles[f0][int(e.sides[0] % 3)] == e.a;  // triangle 0 runs a -> b
     const float sign = ab ? 1.0f : -1.0f;
     if (sign * dot(n0, before) <= 0 || sign * dot(n1, before) <= 0) continue;
     mesh.triangles[f0] = ab ? UVec3(c, d, e.b) : UVec3(c, e.b, d);

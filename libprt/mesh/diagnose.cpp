@@ -1,0 +1,324 @@
+#include "libprt/mesh/diagnose.h"
+
+#include "libprt/mesh/cavity.h"
+#include "libprt/mesh/dense_index.h"
+#include "libprt/mesh/edges.h"
+#include "libprt/mesh/weld.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+/// No check for cavities beyond this many triangle visits; the rest counts as inside out.
+constexpr double kCavityWork = 2e8;
+
+bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+class Diagnosis {
+ public:
+  Diagnosis(const PolygonSoup& soup, std::span<const std::uint32_t> representative, Job& job)
+      : soup_(soup), job_(job), representative_(representative) {}
+
+  MeshReport run() {
+    job_.begin("diagnose", 6, "steps");
+    report_.vertices = soup_.positions.size();
+    report_.faces = soup_.faceCount();
+    vertices();
+    step();
+    faces();
+    step();
+    duplicateFaces();
+    step();
+    const MeshEdges edges(soup_.faceStart, corners_, skip_);
+    step();
+    components();
+    edgesAndSurfaces(edges);
+    step();
+    fansAndLoops(edges);
+    step();
+    report_.euler = long(report_.positions) - long(report_.edges) + long(solidFaces_);
+    return std::move(report_);
+  }
+
+ private:
+  void step() {
+    job_.advance(1);
+    job_.checkCancelled();
+  }
+
+  void vertices() {
+    for (std::size_t v = 0; v < representative_.size(); ++v) {
+      if (!finite(soup_.positions[v])) report_.nonFiniteVertices.add(std::uint32_t(v));
+      if (representative_[v] != v) report_.duplicateVertices.add(std::uint32_t(v));
+    }
+  }
+
+  /// Looks at each face on its own and decides whether it takes part in edges and what follows.
+  void faces() {
+    corners_.resize(soup_.cornerCount());
+    skip_.assign(soup_.faceCount(), false);
+    std::vector<bool> referenced(soup_.positions.size(), false), used(soup_.positions.size(), false);
+    for (std::size_t f = 0; f < soup_.faceCount(); ++f) {
+      bool inRange = true, isFinite = true;
+      for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) {
+        const std::uint32_t v = soup_.cornerVertex[c];
+        inRange = inRange && v < soup_.positions.size();
+        if (v >= soup_.positions.size()) continue;
+        referenced[v] = true;
+        isFinite = isFinite && finite(soup_.positions[v]);
+        corners_[c] = representative_[v];
+      }
+      if (!inRange) report_.outOfRangeFaces.add(std::uint32_t(f));
+      const bool usable = inRange && isFinite;
+      const bool spans = usable && threeDifferent(f);
+      if (usable && (!spans || hasNoArea(f))) report_.degenerateFaces.add(std::uint32_t(f));
+      skip_[f] = !spans;
+      if (!spans) continue;
+      ++solidFaces_;
+      report_.triangles += soup_.face(f).size() - 2;
+      for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) used[corners_[c]] = true;
+    }
+    for (std::size_t v = 0; v < referenced.size(); ++v)
+      if (!referenced[v]) report_.unreferencedVertices.add(std::uint32_t(v));
+    measure(used);
+  }
+
+  void measure(const std::vector<bool>& used) {
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) continue;
+      const DVec3& p = soup_.positions[v];
+      report_.low = report_.positions == 0 ? p : min(report_.low, p);
+      report_.high = report_.positions == 0 ? p : max(report_.high, p);
+      ++report_.positions;
+    }
+  }
+
+  std::span<const std::uint32_t> weldedFace(std::size_t f) const {
+    return std::span(corners_).subspan(soup_.faceStart[f], soup_.faceStart[f + 1] - soup_.faceStart[f]);
+  }
+
+  bool threeDifferent(std::size_t f) const {
+    const auto face = weldedFace(f);
+    if (face.size() < 3) return false;
+    const std::uint32_t a = face[0];
+    std::uint32_t b = a;
+    for (std::uint32_t v : face) {
+      if (b == a) b = v;
+      if (v != a && v != b) return true;
+    }
+    return false;
+  }
+
+  /// Twice the area vector of a polygon (Newell), against its longest side.
+  bool hasNoArea(std::size_t f) const {
+    const auto face = weldedFace(f);
+    const DVec3 origin = soup_.positions[face[0]];
+    DVec3 area(0);
+    double longest2 = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const DVec3 a = soup_.positions[face[i]] - origin;
+      const DVec3 b = soup_.positions[face[(i + 1) % face.size()]] - origin;
+      area += cross(a, b);
+      longest2 = std::max(longest2, dot(b - a, b - a));
+    }
+    return length(area) <= 1e-10 * longest2;
+  }
+
+  /// Faces over the same positions: sorted corner lists, grouped by hash, compared in full.
+  void duplicateFaces() {
+    struct Hashed {
+      std::uint64_t hash;
+      std::uint32_t face;
+    };
+    const auto sorted = [&](std::uint32_t f) {
+      const auto face = weldedFace(f);
+      std::vector<std::uint32_t> list(face.begin(), face.end());
+      std::sort(list.begin(), list.end());
+      return list;
+    };
+    std::vector<Hashed> hashes;
+    hashes.reserve(solidFaces_);
+    for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      if (skip_[f]) continue;
+      std::uint64_t hash = 0x9e3779b97f4a7c15u;
+      for (std::uint32_t v : sorted(f)) hash = (hash ^ (hash >> 29) ^ v) * 0xbf58476d1ce4e5b9u;
+      hashes.push_back({hash, f});
+    }
+    std::sort(hashes.begin(), hashes.end(),
+              [](const Hashed& x, const Hashed& y) { return x.hash != y.hash ? x.hash < y.hash : x.face < y.face; });
+    std::vector<std::uint32_t> duplicates;
+    for (std::size_t i = 1, first = 0; i < hashes.size(); ++i) {
+      if (hashes[i].hash != hashes[first].hash)
+        first = i;
+      else if (sorted(hashes[i].face) == sorted(hashes[first].face))
+        duplicates.push_back(hashes[i].face);
+    }
+    std::sort(duplicates.begin(), duplicates.end());
+    for (std::uint32_t f : duplicates) report_.duplicateFaces.add(f);
+  }
+
+  void components() {
+    UnionFind pieces(soup_.positions.size());
+    for (std::size_t f = 0; f < skip_.size(); ++f) {
+      if (skip_[f]) continue;
+      for (std::uint32_t v : weldedFace(f)) pieces.join(weldedFace(f)[0], v);
+    }
+    std::vector<bool> counted(soup_.positions.size(), false);
+    for (std::size_t f = 0; f < skip_.size(); ++f) {
+      if (skip_[f]) continue;
+      const std::uint32_t piece = pieces.find(weldedFace(f)[0]);
+      if (!counted[piece]) ++report_.components;
+      counted[piece] = true;
+    }
+  }
+
+  void edgesAndSurfaces(const MeshEdges& edges) {
+    report_.edges = edges.size();
+    std::vector<std::uint32_t> faceOfCorner(corners_.size());
+    for (std::size_t f = 0; f < soup_.faceCount(); ++f)
+      std::fill(faceOfCorner.begin() + soup_.faceStart[f], faceOfCorner.begin() + soup_.faceStart[f + 1], std::uint32_t(f));
+    UnionFind surfaces(soup_.faceCount());
+    std::vector<bool> open(soup_.faceCount(), false);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const MeshEdge edge = edges[e];
+      const std::size_t count = edge.faceCount();
+      for (std::uint32_t side : edge.sides) {
+        surfaces.join(faceOfCorner[edge.sides[0]], faceOfCorner[side]);
+        if (count % 2 == 1) open[faceOfCorner[side]] = true;
+      }
+      if (count == 1) ++report_.boundaryEdges;
+      if (count > 2) report_.nonManifoldEdges.add(edge.a);
+      if (count == 2 && corners_[edge.sides[0]] == corners_[edge.sides[1]]) report_.flippedEdges.add(edge.a);
+    }
+    insideOut(surfaces, open);
+  }
+
+  /// Closed surfaces, and those of them that face inwards without being the wall of a cavity.
+  void insideOut(UnionFind& surfaces, const std::vector<bool>& open) {
+    std::vector<double> volume(soup_.faceCount(), 0.0), area(soup_.faceCount(), 0.0);
+    std::vector<bool> closed(soup_.faceCount(), true);
+    for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      if (skip_[f]) continue;
+      const std::uint32_t root = surfaces.find(f);
+      if (open[f]) closed[root] = false;
+      const DVec3 origin = soup_.positions[weldedFace(root)[0]];
+      forEachTriangle(f, [&](const DVec3& a, const DVec3& b, const DVec3& c) {
+        volume[root] += dot(a - origin, cross(b - origin, c - origin));
+        area[root] += length(cross(b - a, c - a));
+      });
+    }
+    double work = 0;
+    for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      if (skip_[f] || surfaces.find(f) != f) continue;
+      if (!closed[f]) continue;
+      ++report_.closedSurfaces;
+      if (volume[f] >= -1e-9 * std::pow(area[f], 1.5)) continue;  // what encloses nothing has no outside
+      work += double(solidFaces_);
+      if (work > kCavityWork || !insideAnother(f, surfaces, closed)) report_.insideOut.add(f);
+    }
+  }
+
+  template <class Visit>
+  void forEachTriangle(std::uint32_t f, Visit visit) const {
+    const auto face = weldedFace(f);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+      visit(soup_.positions[face[0]], soup_.positions[face[i]], soup_.positions[face[i + 1]]);
+  }
+
+  /// True when the other closed surfaces wind around this one.
+  bool insideAnother(std::uint32_t surface, UnionFind& surfaces, const std::vector<bool>& closed) const {
+    const DVec3 point = soup_.positions[weldedFace(surface)[0]];
+    double angle = 0;
+    for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      if (f % 65536 == 0) job_.checkCancelled();
+      if (skip_[f]) continue;
+      const std::uint32_t root = surfaces.find(f);
+      if (root == surface || !closed[root]) continue;
+      forEachTriangle(f, [&](const DVec3& a, const DVec3& b, const DVec3& c) { angle += signedSolidAngle(point, a, b, c); });
+    }
+    return angle > 2 * kPi;
+  }
+
+  void fansAndLoops(const MeshEdges& edges) {
+    std::vector<std::uint32_t> next(corners_.size());
+    for (std::size_t f = 0; f < soup_.faceCount(); ++f)
+      for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c)
+        next[c] = c + 1 < soup_.faceStart[f + 1] ? c + 1 : soup_.faceStart[f];
+    UnionFind fans = cornerFans(
+        edges, corners_, [&](std::uint32_t c) { return next[c]; }, [](const MeshEdge&) { return true; });
+    nonManifoldVertices(fans);
+    boundaryLoops(edges, fans, next);
+  }
+
+  void nonManifoldVertices(UnionFind& fans) {
+    std::vector<std::uint32_t> fanOf(soup_.positions.size(), kNoIndex);
+    std::vector<bool> several(soup_.positions.size(), false);
+    for (std::size_t f = 0; f < soup_.faceCount(); ++f) {
+      if (skip_[f]) continue;
+      for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) {
+        std::uint32_t& fan = fanOf[corners_[c]];
+        if (fan == kNoIndex) fan = fans.find(c);
+        if (fan != fans.find(c)) several[corners_[c]] = true;
+      }
+    }
+    for (std::size_t v = 0; v < several.size(); ++v)
+      if (several[v]) report_.nonManifoldVertices.add(std::uint32_t(v));
+  }
+
+  /// Boundary edges that end in one fan belong to one loop.
+  void boundaryLoops(const MeshEdges& edges, UnionFind& fans, const std::vector<std::uint32_t>& next) {
+    UnionFind loops(corners_.size());
+    std::vector<std::uint32_t> boundary;
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (edges[e].faceCount() == 1) boundary.push_back(edges[e].sides[0]);
+    for (std::uint32_t side : boundary) loops.join(fans.find(side), fans.find(next[side]));
+    std::vector<bool> counted(corners_.size(), false);
+    for (std::uint32_t side : boundary) {
+      const std::uint32_t loop = loops.find(fans.find(side));
+      if (!counted[loop]) report_.holes.add(corners_[side]);
+      counted[loop] = true;
+    }
+  }
+
+  const PolygonSoup& soup_;
+  Job& job_;
+  MeshReport report_;
+  std::span<const std::uint32_t> representative_;  // [V] the vertex that stands for each
+  std::vector<std::uint32_t> corners_;         // [C] representatives
+  std::vector<bool> skip_;                     // [F] faces without part in topology
+  std::size_t solidFaces_ = 0;
+};
+
+}  // namespace
+
+bool MeshReport::clean() const {
+  const Defect* defects[] = {&outOfRangeFaces,      &nonFiniteVertices, &degenerateFaces,     &duplicateFaces,
+                             &unreferencedVertices, &nonManifoldEdges,  &nonManifoldVertices, &holes,
+                             &flippedEdges,         &insideOut};
+  return faces > 0 && std::all_of(std::begin(defects), std::end(defects), [](const Defect* d) { return d->count == 0; });
+}
+
+MeshReport diagnose(const PolygonSoup& soup, std::span<const std::uint32_t> representative, Job& job) {
+  return Diagnosis(soup, representative, job).run();
+}
+
+MeshReport diagnose(const PolygonSoup& soup, Job& job) {
+  return diagnose(soup, weldByPosition(soup.positions), job);
+}
+
+MeshReport diagnose(const TriMesh& mesh, Job& job) {
+  MeshReport report = diagnose(toSoup(mesh), job);
+  report.duplicateVertices = {};
+  DenseIndex<6> seen(mesh.vertexCount());
+  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    const Vec3 n = mesh.normals.empty() ? Vec3(0) : mesh.normals[v];
+    const auto known = seen.size();
+    if (seen.insert({keyBits(p.x), keyBits(p.y), keyBits(p.z), keyBits(n.x), keyBits(n.y), keyBits(n.z)}) < known)
+      report.duplicateVertices.add(v);
+  }
+  return report;
+}
+
+}  // namespace prt

@@ -1,0 +1,349 @@
+#include "libprt/mesh/repair.h"
+
+#include "libprt/core/error.h"
+#include "libprt/mesh/dense_index.h"
+#include "libprt/mesh/duplicates.h"
+#include "libprt/mesh/edges.h"
+#include "libprt/mesh/mesh_reader.h"
+#include "libprt/mesh/normals.h"
+#include "libprt/mesh/orient.h"
+#include "libprt/mesh/triangulate.h"
+#include "libprt/mesh/weld.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+constexpr double kSmallest = 1e-6, kLargest = 1e9;  // extents whose squared areas are floats
+/// A mesh this many times its size away from the origin is moved: floats would lose its shape.
+constexpr double kFarAway = 16;
+
+bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+class Repair {
+ public:
+  Repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) : soup_(soup), options_(options), job_(job) {}
+
+  RepairedMesh run() {
+    report_.before = diagnose(soup_, job_);
+    report_.unit = soup_.unit;
+    report_.notes = soup_.notes;
+    job_.begin("repair", 7, "steps");
+    checkUsable();
+    place();
+    step();
+    weld();
+    step();
+    cutIntoTriangles();
+    step();
+    dropDuplicates();
+    step();
+    orient();
+    if (options_.splitNonManifold) split();
+    step();
+    normals();
+    step();
+    RepairedMesh result = assemble();
+    step();
+    report_.after = diagnose(toSoup(result.mesh), representative_, job_);
+    report_.after.duplicateVertices = {};  // those are creases, and places that were parted on purpose
+    result.report = std::move(report_);
+    return result;
+  }
+
+ private:
+  void step() {
+    job_.advance(1);
+    job_.checkCancelled();
+  }
+  [[noreturn]] void fail(const std::string& problem, const std::string& fix) const {
+    throw GeometryError(problem, soup_.source, fix);
+  }
+
+  [[noreturn]] void failEmpty() const {
+    fail(std::string("has no usable face: ").append(toText(report_.before)), "repair or export the mesh again");
+  }
+
+  void checkUsable() const {
+    if (soup_.faceCount() == 0)
+      fail(soup_.positions.empty() ? "holds no mesh" : "holds points but no faces", "give a mesh with triangles or polygons");
+    if (report_.before.triangles == 0) failEmpty();
+    const DVec3 extent = report_.before.high - report_.before.low;
+    const double size = std::max({extent.x, extent.y, extent.z});
+    if (!(size >= kSmallest && size <= kLargest))
+      fail("is " + std::to_string(size) + " units large", "scale it to between 1e-6 and 1e9 units");
+  }
+
+  /// Positions as floats, taken off their place when that lies so far out that they would lose their shape.
+  void place() {
+    const DVec3 low = report_.before.low, high = report_.before.high, center = 0.5 * (low + high);
+    const double size = length(high - low);
+    if (options_.recentre && length(center) > kFarAway * size) {
+      const double unit = std::pow(10.0, std::floor(std::log10(size)));  // a round offset is easier to type
+      report_.offset = glm::round(center / unit) * unit;
+    }
+    positions_.reserve(soup_.positions.size());
+    for (const DVec3& p : soup_.positions) positions_.push_back(Vec3(p - report_.offset));
+  }
+
+  void weld() {
+    vertexOf_.resize(positions_.size());
+    if (options_.weld)
+      vertexOf_ = weldByPosition(positions_);
+    else
+      for (std::uint32_t v = 0; v < vertexOf_.size(); ++v) vertexOf_[v] = v;
+  }
+
+  /// Triangles of corners, without faces that no renderer could use.
+  void cutIntoTriangles() {
+    std::vector<DVec3> outline;
+    for (std::uint32_t f = 0; f < soup_.faceCount(); ++f) {
+      if (f % 16384 == 0) job_.checkCancelled();
+      const auto face = soup_.face(f);
+      if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= soup_.positions.size(); })) {
+        ++report_.droppedOutOfRange;
+      } else if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return !finite(soup_.positions[v]); })) {
+        ++report_.droppedNonFinite;
+      } else if (face.size() < 3) {
+        ++report_.droppedDegenerate;
+      } else if (face.size() == 3) {
+        addTriangle(f, {0, 1, 2});
+      } else {
+        outline.clear();
+        for (std::uint32_t v : face) outline.push_back(soup_.positions[v]);
+        for (const auto& triangle : triangulatePolygon(outline, job_)) addTriangle(f, triangle);
+        ++report_.cutPolygons;
+      }
+    }
+    if (triangles_.empty()) failEmpty();
+  }
+
+  void addTriangle(std::uint32_t face, const std::array<std::uint32_t, 3>& corners) {
+    UVec3 soupCorners, vertices;
+    for (int i = 0; i < 3; ++i) {
+      soupCorners[i] = soup_.faceStart[face] + corners[std::size_t(i)];
+      vertices[i] = vertexOf_[soup_.cornerVertex[soupCorners[i]]];
+    }
+    const DVec3 a(positions_[vertices.x]), b(positions_[vertices.y]), c(positions_[vertices.z]);
+    const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+    if (length(cross(b - a, c - a)) <= 1e-10 * longest2) {
+      ++report_.droppedDegenerate;
+      return;
+    }
+    triangles_.push_back(vertices);
+    corners_.push_back(soupCorners);
+    faceOf_.push_back(face);
+  }
+
+  void dropDuplicates() {
+    if (!options_.dropDuplicateFaces) return;
+    const std::vector<bool> drop = duplicateTriangles(triangles_);
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      if (drop[f]) continue;
+      triangles_[kept] = triangles_[f];
+      corners_[kept] = corners_[f];
+      faceOf_[kept] = faceOf_[f];
+      ++kept;
+    }
+    report_.droppedDuplicates = triangles_.size() - kept;
+    triangles_.resize(kept);
+    corners_.resize(kept);
+    faceOf_.resize(kept);
+  }
+
+  Vec3 fileNormal(std::uint32_t corner) const {
+    if (soup_.cornerNormal.empty()) return Vec3(0);
+    const std::uint32_t n = soup_.cornerNormal[corner];
+    return n < soup_.normals.size() ? soup_.normals[n] : Vec3(0);
+  }
+
+  void orient() {
+    if (options_.orientation == Orientation::keep) return;
+    std::vector<float> votes;
+    if (!soup_.normals.empty() && !soup_.cornerNormal.empty()) {
+      votes.resize(triangles_.size());
+      for (std::size_t f = 0; f < triangles_.size(); ++f) {
+        const DVec3 a(positions_[triangles_[f].x]), b(positions_[triangles_[f].y]), c(positions_[triangles_[f].z]);
+        const DVec3 sum = DVec3(fileNormal(corners_[f].x)) + DVec3(fileNormal(corners_[f].y)) + DVec3(fileNormal(corners_[f].z));
+        const double agreement = dot(cross(b - a, c - a), sum);
+        votes[f] = agreement > 0 ? 1.0f : agreement < 0 ? -1.0f : 0.0f;
+      }
+    }
+    const bool outward = options_.orientation == Orientation::outward;
+    flipped_ = trianglesToFlip({positions_, triangles_, votes, outward}, job_);
+    for (std::size_t f = 0; f < triangles_.size(); ++f) {
+      if (!flipped_[f]) continue;
+      std::swap(triangles_[f].y, triangles_[f].z);
+      std::swap(corners_[f].y, corners_[f].z);
+      ++report_.flippedTriangles;
+    }
+  }
+
+  /// Gives every fan of triangles its own vertex. Fans are parted by edges of more or fewer than two
+  /// triangles and by edges along which two run in the same direction.
+  void split() {
+    const MeshEdges edges(triangles_);
+    std::vector<std::uint32_t> cornerVertex;
+    for (const UVec3& t : triangles_) cornerVertex.insert(cornerVertex.end(), {t.x, t.y, t.z});
+    const auto joins = [&](const MeshEdge& edge) {
+      return edge.faceCount() == 2 && cornerVertex[edge.sides[0]] != cornerVertex[edge.sides[1]];
+    };
+    UnionFind fans = cornerFans(edges, cornerVertex, nextInTriangle, joins);
+    std::vector<std::uint32_t> firstFan(positions_.size(), kNoIndex), vertexOfFan(cornerVertex.size(), kNoIndex);
+    for (std::uint32_t c = 0; c < cornerVertex.size(); ++c) {
+      const std::uint32_t fan = fans.find(c), v = cornerVertex[c];
+      if (firstFan[v] == kNoIndex) firstFan[v] = fan;
+      if (vertexOfFan[fan] == kNoIndex) {
+        const bool isFirst = firstFan[v] == fan;
+        vertexOfFan[fan] = isFirst ? v : std::uint32_t(positions_.size());
+        if (!isFirst) {
+          positions_.push_back(positions_[v]);
+          ++report_.splitVertices;
+        }
+      }
+      triangles_[c / 3][int(c % 3)] = vertexOfFan[fan];
+    }
+  }
+
+  void normals() {
+    std::vector<Vec3> fromFile;
+    if (options_.keepNormals && !soup_.normals.empty() && !soup_.cornerNormal.empty()) {
+      fromFile.reserve(3 * triangles_.size());
+      for (std::size_t f = 0; f < triangles_.size(); ++f)
+        for (int i = 0; i < 3; ++i) {
+          const Vec3 n = fileNormal(corners_[f][i]);
+          fromFile.push_back(!flipped_.empty() && flipped_[f] ? -n : n);
+        }
+    }
+    cornerNormals_ = cornerNormals({positions_, triangles_, fromFile, options_.creaseAngle});
+    report_.keptNormals = cornerNormals_.kept;
+    report_.computedNormals = 3 * triangles_.size() - cornerNormals_.kept;
+  }
+
+  /// Vertices in the order of the file, one for each position and normal.
+  RepairedMesh assemble() {
+    RepairedMesh result;
+    TriMesh& mesh = result.mesh;
+    DenseIndex<4> variants(positions_.size());
+    std::vector<std::uint32_t> variantOfCorner;
+    for (std::size_t c = 0; c < 3 * triangles_.size(); ++c) {
+      const Vec3& n = cornerNormals_.normals[c];
+      variantOfCorner.push_back(variants.insert({triangles_[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)}));
+    }
+    const std::vector<std::uint32_t> vertexOfVariant = orderVertices(variants, mesh);
+    for (std::size_t f = 0; f < triangles_.size(); ++f)
+      mesh.triangles.push_back({vertexOfVariant[variantOfCorner[3 * f]], vertexOfVariant[variantOfCorner[3 * f + 1]],
+                                vertexOfVariant[variantOfCorner[3 * f + 2]]});
+    textureCoordinates(mesh);
+    if (!soup_.faceMaterial.empty()) {
+      for (std::uint32_t f : faceOf_) result.triangleMaterial.push_back(soup_.faceMaterial[f]);
+      result.materials = soup_.materials;
+    }
+    return result;
+  }
+
+  /// Fills the mesh's vertices; returns the vertex of each variant.
+  std::vector<std::uint32_t> orderVertices(const DenseIndex<4>& variants, TriMesh& mesh) {
+    std::vector<std::uint32_t> start(positions_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < variants.size(); ++i) ++start[variants.key(i)[0] + 1];
+    std::size_t used = 0;
+    for (std::size_t v = 0; v < positions_.size(); ++v) {
+      used += start[v + 1] > 0;
+      const bool isAlone = start[v + 1] == 0 && !options_.removeUnreferenced && keepsAlone(v);
+      alone_.push_back(isAlone);
+      start[v + 1] += start[v] + (isAlone ? 1 : 0);
+    }
+    mesh.positions.resize(start.back());
+    mesh.normals.assign(start.back(), Vec3(0, 1, 0));
+    for (std::size_t v = 0; v < positions_.size(); ++v)
+      if (alone_[v]) mesh.positions[start[v]] = positions_[v];
+    representative_.resize(mesh.vertexCount());
+    std::iota(representative_.begin(), representative_.end(), 0u);
+    const std::vector<std::uint32_t> first = start;
+    std::vector<std::uint32_t> vertexOfVariant(variants.size());
+    for (std::uint32_t i = 0; i < variants.size(); ++i) {
+      const auto& key = variants.key(i);
+      const std::uint32_t vertex = start[key[0]]++;
+      vertexOfVariant[i] = vertex;
+      representative_[vertex] = first[key[0]];
+      mesh.positions[vertex] = positions_[key[0]];
+      mesh.normals[vertex] = Vec3(std::bit_cast<float>(key[1]), std::bit_cast<float>(key[2]), std::bit_cast<float>(key[3]));
+    }
+    report_.creaseVertices = variants.size() - used;
+    countVertices(mesh.vertexCount());
+    return vertexOfVariant;
+  }
+
+  /// Vertices of the file that no triangle kept, and those that went into others.
+  void countVertices(std::size_t made) {
+    std::vector<bool> isUsed(soup_.positions.size(), false);
+    for (const UVec3& corners : corners_)
+      for (int i = 0; i < 3; ++i) isUsed[soup_.cornerVertex[corners[i]]] = true;
+    const auto count = [](const std::vector<bool>& flags) { return std::size_t(std::count(flags.begin(), flags.end(), true)); };
+    const std::size_t used = count(isUsed), alone = count(alone_);
+    const std::size_t madeOfUsed = made - alone - report_.splitVertices;
+    report_.removedVertices = soup_.positions.size() - used - alone;
+    report_.weldedVertices = used > madeOfUsed ? used - madeOfUsed : 0;
+  }
+
+  bool keepsAlone(std::size_t v) const {
+    return isFinite(positions_[v]) && (v >= vertexOf_.size() || vertexOf_[v] == v);
+  }
+
+  void textureCoordinates(TriMesh& mesh) {
+    if (soup_.uv.empty() || soup_.cornerUv.empty()) return;
+    std::vector<std::uint32_t> newIndex(soup_.uv.size(), kNoIndex);
+    std::uint32_t filler = kNoIndex;
+    const auto append = [&](const Vec2& uv) {
+      mesh.uv.push_back(uv);
+      return std::uint32_t(mesh.uv.size() - 1);
+    };
+    const auto indexOf = [&](std::uint32_t corner) {
+      const std::uint32_t old = soup_.cornerUv[corner];
+      if (old < soup_.uv.size() && std::isfinite(soup_.uv[old].x) && std::isfinite(soup_.uv[old].y)) {
+        if (newIndex[old] == kNoIndex) newIndex[old] = append(soup_.uv[old]);
+        return newIndex[old];
+      }
+      ++report_.filledUvs;
+      if (filler == kNoIndex) filler = append(Vec2(0));
+      return filler;
+    };
+    for (const UVec3& c : corners_) {
+      const std::uint32_t x = indexOf(c.x), y = indexOf(c.y), z = indexOf(c.z);
+      mesh.uvTriangles.push_back({x, y, z});
+    }
+  }
+
+  const PolygonSoup& soup_;
+  const RepairOptions& options_;
+  Job& job_;
+  RepairReport report_;
+  std::vector<Vec3> positions_;             // [V], and copies made by splitting
+  std::vector<std::uint32_t> vertexOf_;     // [V] the vertex that stands for each
+  std::vector<UVec3> triangles_;            // [F] vertices
+  std::vector<UVec3> corners_;              // [F] the soup's corners
+  std::vector<std::uint32_t> faceOf_;       // [F] the soup's face
+  std::vector<bool> flipped_;               // [F] against the file
+  std::vector<bool> alone_;                 // [V] kept without a triangle
+  std::vector<std::uint32_t> representative_;  // [result's V] the first vertex at the same place of the surface
+  CornerNormals cornerNormals_;
+};
+
+}  // namespace
+
+RepairedMesh repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) {
+  if (!(options.creaseAngle >= 0)) throw ValueError("the crease angle is negative", "repair options", "give 0 to pi");
+  return Repair(soup, options, job).run();
+}
+
+TriMesh loadMesh(const std::filesystem::path& path, const RepairOptions& options, Job& job, RepairReport* report) {
+  RepairedMesh repaired = repair(readMesh(path, job), options, job);
+  if (report) *report = std::move(repaired.report);
+  return std::move(repaired.mesh);
+}
+
+}  // namespace prt
