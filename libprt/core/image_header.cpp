@@ -51,6 +51,21 @@ class Bytes {
   bool failed_ = false;
 };
 
+/// The checksum of PNG chunks (CRC-32 of ISO 3309). libpng would print a line about each wrong one.
+std::uint32_t crc32(std::span<const std::byte> bytes) {
+  static constexpr auto kTable = [] {
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      table[i] = i;
+      for (int bit = 0; bit < 8; ++bit) table[i] = (table[i] >> 1) ^ (table[i] & 1 ? 0xedb88320u : 0);
+    }
+    return table;
+  }();
+  std::uint32_t crc = ~0u;
+  for (std::byte b : bytes) crc = kTable[(crc ^ std::uint32_t(b)) & 0xff] ^ (crc >> 8);
+  return ~crc;
+}
+
 /// Beyond every limit, and far from overflow when two are multiplied or many added.
 constexpr std::int64_t kFar = std::int64_t(1) << 31;
 
@@ -97,10 +112,11 @@ std::optional<ImageHeader> readPngHeader(std::span<const std::byte> file) {
   ImageHeader header;
   for (std::string_view type; type != "IEND";) {
     const std::uint32_t length = bytes.bigEndian(4);
-    const auto name = bytes.take(4);
-    Bytes data(bytes.take(length));
-    bytes.take(4);  // checksum
-    if (bytes.failed()) return {};
+    const auto chunk = bytes.take(std::size_t(length) + 4);  // its name, then its data
+    const std::uint32_t checksum = bytes.bigEndian(4);
+    if (bytes.failed() || checksum != crc32(chunk)) return {};
+    Bytes data(chunk);
+    const auto name = data.take(4);
     type = {reinterpret_cast<const char*>(name.data()), 4};
     if (type != "IHDR" || header.width != 0) continue;
     header.width = data.bigEndian(4);

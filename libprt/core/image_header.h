@@ -19,7 +19,7 @@ struct ImageHeader {
 /// Each returns nothing when the header is damaged beyond what the decoder could make sense of. The spans
 /// hold the whole file.
 
-/// Nothing too when a chunk is longer than the file, or the closing one is missing.
+/// Nothing too when a chunk is longer than the file or its checksum wrong, or the closing one is missing.
 std::optional<ImageHeader> readPngHeader(std::span<const std::byte> file);
 std::optional<ImageHeader> readJpegHeader(std::span<const std::byte> file);
 /// Of several parts the largest of everything, and all of their chunks.

@@ -226,6 +226,22 @@ TEST(ImageIo, TruncatedFilesAreRefusedAtEveryLength) {
   }
 }
 
+/// Makes the checksums of a PNG's chunks right, so that damage reaches the decoder.
+void repairPngChecksums(std::vector<std::byte>& png) {
+  for (std::size_t at = 8; at + 12 <= png.size();) {
+    std::size_t length = 0;
+    for (int i = 0; i < 4; ++i) length = length << 8 | std::size_t(png[at + i]);
+    if (at + 12 + length > png.size()) return;
+    std::uint32_t crc = ~0u;  // bit by bit
+    for (std::size_t i = at + 4; i < at + 8 + length; ++i) {
+      crc ^= std::uint32_t(png[i]);
+      for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    for (int i = 0; i < 4; ++i) png[at + 8 + length + i] = std::byte(~crc >> (24 - 8 * i));
+    at += 12 + length;
+  }
+}
+
 TEST(ImageIo, DamagedFilesGiveAnImageOrAFileError) {
   const TemporaryFolder folder;
   OIIO::ImageSpec spec(24, 9, 3, OIIO::TypeDesc::UINT8);
@@ -243,6 +259,7 @@ TEST(ImageIo, DamagedFilesGiveAnImageOrAFileError) {
             hashUniform(2, round, c) < 0.5f ? std::min<std::size_t>(bytes.size(), 400) : bytes.size();
         bytes[hashBits(3, round, c) % range] = std::byte(hashBits(4, round, c));
       }
+      if (std::string(extension) == ".png" && round % 20 == 0) repairPngChecksums(bytes);
       try {
         const Image image = readImage(bytes, "damaged", {.maxBytes = 1 << 20});
         ASSERT_EQ(image.data.size(), image.pixels() * image.channels);
@@ -286,6 +303,16 @@ TEST(ImageIo, GiantPartsAreRefusedBeforeMemoryIsTaken) {
   std::memcpy(exr.data() + window + 12, &negative, 4);
   EXPECT_NE(errorOf([&] { readImage(std::as_bytes(std::span(exr)), "giant", {}); }).find("is damaged"),
             std::string::npos);
+}
+
+TEST(ImageIo, PngChecksumsAreChecked) {
+  const TemporaryFolder folder;
+  writeImage(folder / "a.png", gradient(4, 4, 3));
+  std::vector<std::byte> png = readFile(folder / "a.png");
+  png[png.size() - 20] ^= std::byte(1);
+  EXPECT_NE(errorOf([&] { readImage(png, "flipped", {}); }).find("is damaged or cut off"), std::string::npos);
+  repairPngChecksums(png);
+  EXPECT_EQ(errorOf([&] { readImage(png, "flipped", {}); }).find("is damaged or cut off"), std::string::npos);
 }
 
 TEST(ImageIo, LimitsAreKept) {
