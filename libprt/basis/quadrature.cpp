@@ -1,5 +1,6 @@
 #include "libprt/basis/quadrature.h"
 
+#include "libprt/basis/legendre.h"
 #include "libprt/core/error.h"
 
 #include <cmath>
@@ -12,21 +13,6 @@ void requireCount(int count, int least, int most, const char* where) {
   if (count >= least && count <= most) return;
   throw ValueError("cannot make a rule of size " + std::to_string(count), where,
                    "use " + std::to_string(least) + " to " + std::to_string(most));
-}
-
-struct Legendre {
-  double value, derivative;
-};
-
-/// P_n and its derivative at |x| < 1.
-Legendre legendre(int n, double x) {
-  double before = 1, p = x;
-  for (int l = 2; l <= n; ++l) {
-    const double next = ((2 * l - 1) * x * p - (l - 1) * before) / l;
-    before = p;
-    p = next;
-  }
-  return {p, n * (x * p - before) / (x * x - 1)};
 }
 
 SphereRule productRule(const std::vector<double>& z, const std::vector<double>& zWeights, int azimuths) {
@@ -53,12 +39,12 @@ IntervalRule gaussLegendre(int count) {
     double x = -std::cos(kPi * (i + 0.75) / (count + 0.5));  // Tricomi's estimate; Newton ends in a few steps
     if (2 * i + 1 == count) x = 0;
     for (int step = 0; step < 10; ++step) {
-      const Legendre p = legendre(count, x);
-      const double change = p.value / p.derivative;
+      const LegendreTable p(count + 1, x);
+      const double change = p.value[count] / p.slope[count];
       x -= change;
       if (std::abs(change) < 1e-16) break;
     }
-    const double slope = legendre(count, x).derivative;
+    const double slope = LegendreTable(count + 1, x).slope[count];
     rule.nodes[i] = x;
     rule.nodes[count - 1 - i] = -x;
     rule.weights[i] = rule.weights[count - 1 - i] = 2 / ((1 - x * x) * slope * slope);

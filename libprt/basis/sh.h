@@ -15,8 +15,12 @@ namespace prt {
 /// Most bands that any function here accepts.
 inline constexpr int kMaxShBands = 65;
 
-constexpr int shCount(int bands) { return bands * bands; }
-constexpr int shIndex(int l, int m) { return l * (l + 1) + m; }
+constexpr int shCount(int bands) {
+  return bands * bands;
+}
+constexpr int shIndex(int l, int m) {
+  return l * (l + 1) + m;
+}
 
 /// Values of all bands*bands functions in unit direction `d`. out.size() >= shCount(bands).
 /// Float error below 1e-6 for 5 bands and 1e-5 for 17; use the double version above that. No branches up
