@@ -11,7 +11,7 @@ find_package(OpenImageIO REQUIRED)
 get_target_property(PRT_OIIO_INCLUDES OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER PRT_OIIO_INCLUDES EXCLUDE REGEX "opencv")
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${PRT_OIIO_INCLUDES}")
-find_package(tinyobjloader REQUIRED)
+find_package(tinyobjloader REQUIRED)  # headers only: compiled into the mesh readers, behind their guards
 find_package(TinyGLTF REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -1,11 +1,13 @@
 #include "libprt/core/file.h"
 
 #include "libprt/core/error.h"
+#include "libprt/core/job.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -38,9 +40,11 @@ class Descriptor {
   int fd_;
 };
 
-void readAll(int fd, const fs::path& path, std::span<std::byte> bytes) {
+void readAll(int fd, const fs::path& path, std::span<std::byte> bytes, Job* job) {
+  constexpr std::size_t kChunk = std::size_t(16) << 20;
   for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got = ::read(fd, bytes.data() + done, bytes.size() - done);
+    if (job) job->checkCancelled();
+    const ssize_t got = ::read(fd, bytes.data() + done, std::min(kChunk, bytes.size() - done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) failWithErrno("cannot read it", path);
     if (got == 0) throw FileError("became shorter while it was read", path.string(), "try again");
@@ -74,7 +78,7 @@ fs::path temporaryBeside(const fs::path& target) {
 
 }  // namespace
 
-std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
+std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes, Job* job) {
   const Descriptor file(path, O_RDONLY | O_NONBLOCK);  // never waits for the writer of a pipe
   if (!file.valid()) failWithErrno("cannot open it", path);
   struct stat info {};
@@ -85,7 +89,7 @@ std::vector<std::byte> readFile(const fs::path& path, std::size_t maxBytes) {
     throw FileError("is larger than the limit of " + std::to_string(maxBytes) + " bytes", path.string(),
                     "give a smaller file");
   std::vector<std::byte> bytes(std::size_t(info.st_size));
-  readAll(file.get(), path, bytes);
+  readAll(file.get(), path, bytes, job);
   return bytes;
 }
 

@@ -1,7 +1,7 @@
 #include "libprt/mesh/gltf_container.h"
 
 #include "libprt/core/error.h"
-#include "libprt/mesh/file_bytes.h"
+#include "libprt/mesh/side_file.h"
 
 #include <nlohmann/json.hpp>
 

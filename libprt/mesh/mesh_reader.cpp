@@ -1,11 +1,13 @@
 #include "libprt/mesh/mesh_reader.h"
 
 #include "libprt/core/error.h"
-#include "libprt/mesh/file_bytes.h"
+#include "libprt/core/file.h"
 #include "libprt/mesh/text_scanner.h"
 
 namespace prt {
 namespace {
+
+constexpr std::size_t kLargestFile = (std::size_t{1} << 32) - 1;  // counts in it fit 32 bits
 
 using Parser = PolygonSoup (*)(std::string_view, const MeshSource&, Job&);
 
@@ -48,7 +50,9 @@ PolygonSoup readMesh(const std::filesystem::path& path, Job& job) {
   if (!format)
     throw FileError(inQuotes(extension) + " is not the extension of a mesh format", path.string(), "known are " + known);
 
-  const std::string bytes = readFileBytes(path, job);
+  job.begin("read", 0, "bytes");
+  const std::vector<std::byte> contents = readFile(path, kLargestFile, &job);
+  const std::string_view bytes(reinterpret_cast<const char*>(contents.data()), contents.size());
   if (bytes.empty()) throw FileError("is empty", path.string(), "export the file again");
   const std::string magic = formatByMagic(bytes);
   if (!magic.empty() && magic != format->name)

@@ -1,7 +1,7 @@
 // Wavefront OBJ through tinyobjloader's callbacks, behind the checks of obj_text.h.
 
 #include "libprt/core/error.h"
-#include "libprt/mesh/file_bytes.h"
+#include "libprt/mesh/side_file.h"
 #include "libprt/mesh/mesh_reader.h"
 #include "libprt/mesh/obj_text.h"
 #include "libprt/mesh/text_scanner.h"
