@@ -72,11 +72,13 @@ void EnvironmentMap::clean() {
     }
 }
 
-/// The rim of an angular map cuts through pixels. One whose centre lies outside the disc was never meant to be
-/// seen: it takes the colour of the pixel next to it towards the centre.
+/// The rim of an angular map cuts through pixels. One whose centre lies outside the disc was never meant to
+/// be seen: it takes the colour of the pixel next to it towards the centre.
 void EnvironmentMap::fillRim() {
   const double middle = 0.5 * width();
-  const auto centerInside = [&](int x, int y) { return std::hypot(x + 0.5 - middle, y + 0.5 - middle) < middle; };
+  const auto centerInside = [&](int x, int y) {
+    return std::hypot(x + 0.5 - middle, y + 0.5 - middle) < middle;
+  };
   const Image original = pixels_;
   for (int y = 0; y < height(); ++y)
     for (int x = 0; x < width(); ++x) {

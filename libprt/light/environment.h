@@ -1,5 +1,6 @@
 #pragma once
-// Light from far away in all directions, as an image: its pixels, its mapping, its lookups.
+// Light from far away in all directions, as an image: its pixels, its mapping, its lookups. Files:
+// environment_io.h.
 //
 // The map is piecewise constant: every direction inside a texel has the radiance of that texel's pixel.
 // Lookups, projection (projection.h) and the path tracer's sampler (light_sampler.h) all treat the very
@@ -10,8 +11,6 @@
 #include "libprt/light/environment_mapping.h"
 
 #include <cstddef>
-#include <filesystem>
-#include <optional>
 #include <string>
 
 namespace prt {
@@ -20,11 +19,11 @@ namespace prt {
 struct EnvironmentReport {
   std::string source;  ///< file or generator
   EnvironmentMapping mapping = EnvironmentMapping::LatLong;
-  bool mappingDetected = false;  ///< guessed from shape and content, not named by the user
   int width = 0, height = 0;
-  std::size_t covered = 0;    ///< pixels that hold light
-  std::size_t negative = 0;   ///< pixels with a negative channel, set to 0
-  std::size_t nonFinite = 0;  ///< pixels with NaN (set to 0), infinity or more than kMaxRadiance (set to 65504)
+  std::size_t covered = 0;   ///< pixels that hold light
+  std::size_t negative = 0;  ///< pixels with a negative channel, set to 0
+  std::size_t nonFinite =
+      0;  ///< pixels with NaN (set to 0), infinity or more than kMaxRadiance (set to 65504)
   std::size_t atHalfMax = 0;  ///< pixels with a channel at 65504, the largest half: the light may be clipped
   std::size_t labels = 0;     ///< pixels outside the mapping that held something (labels) and are masked
   float smallest = 0;         ///< smallest positive luminance
@@ -67,7 +66,8 @@ class EnvironmentMap {
   void forEachTexel(F&& f) const {
     for (int y = 0; y < height(); ++y)
       for (int x = 0; x < width(); ++x)
-        if (geometry_.covers(x, y)) f(x, y, geometry_.center(x, y), geometry_.solidAngle(x, y), pixels_.rgb(x, y));
+        if (geometry_.covers(x, y))
+          f(x, y, geometry_.center(x, y), geometry_.solidAngle(x, y), pixels_.rgb(x, y));
   }
 
  private:
@@ -80,17 +80,5 @@ class EnvironmentMap {
   Image pixels_;
   EnvironmentReport report_;
 };
-
-/// The mapping that an image most likely holds: its shape, and for crosses and angular maps also that
-/// (but for a label) nothing is in the parts outside. Nothing when no mapping fits.
-std::optional<EnvironmentMapping> detectMapping(const Image& image);
-
-/// Reads EXR, HDR or PNG. Without `mapping` it is detected. Throws FileError when the file cannot be read or
-/// no mapping fits, saying which sizes do.
-EnvironmentMap loadEnvironment(const std::filesystem::path& path, std::optional<EnvironmentMapping> mapping = {});
-
-/// The same light as a lat-long map. Each pixel becomes the mean over its region of the sphere; total
-/// energy is kept exactly, and a constant map stays constant (lat-long input: to rounding; others: to 1e-3).
-EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height);
 
 }  // namespace prt

@@ -22,11 +22,13 @@ constexpr std::array<MappingName, 6> kMappings{{{EnvironmentMapping::LatLong, "l
                                                 {EnvironmentMapping::HorizontalStrip, "hstrip", 6, 1},
                                                 {EnvironmentMapping::VerticalStrip, "vstrip", 1, 6}}};
 
-constexpr std::array<EnvironmentMapping, 6> kAll{EnvironmentMapping::LatLong,         EnvironmentMapping::VerticalCross,
-                                                 EnvironmentMapping::HorizontalCross, EnvironmentMapping::AngularMap,
-                                                 EnvironmentMapping::HorizontalStrip, EnvironmentMapping::VerticalStrip};
+constexpr std::array<EnvironmentMapping, 6> kAll{
+    EnvironmentMapping::LatLong,    EnvironmentMapping::VerticalCross,   EnvironmentMapping::HorizontalCross,
+    EnvironmentMapping::AngularMap, EnvironmentMapping::HorizontalStrip, EnvironmentMapping::VerticalStrip};
 
-const MappingName& info(EnvironmentMapping mapping) { return kMappings[std::size_t(mapping)]; }
+const MappingName& info(EnvironmentMapping mapping) {
+  return kMappings[std::size_t(mapping)];
+}
 
 const IntervalRule& legendre(int order) {
   static const auto rules = [] {
@@ -46,18 +48,28 @@ void onInterval(double a, double b, int order, F&& f) {
 }
 
 /// sin(t)/t with its limit at zero.
-double sinc(double t) { return t < 1e-4 ? 1 - t * t / 6 : std::sin(t) / t; }
+double sinc(double t) {
+  return t < 1e-4 ? 1 - t * t / 6 : std::sin(t) / t;
+}
 
 /// Half the chord of the unit disc at abscissa x.
-double halfChord(double x) { return std::sqrt(std::max(0.0, 1 - x * x)); }
+double halfChord(double x) {
+  return std::sqrt(std::max(0.0, 1 - x * x));
+}
+
+/// The coordinate of pixel i's range nearest to the centre of a disc `size` pixels wide, in [-1, 1].
+double nearestToCentre(int i, int size) {
+  const double a = 2.0 * i / size - 1, b = 2.0 * (i + 1) / size - 1;
+  return a > 0 ? a : b < 0 ? b : 0.0;
+}
 
 /// Nodes of a product rule over the part of a rectangle that lies in the unit disc: f(x, y, area weight).
 /// The range of x is cut where the circle crosses the rectangle's horizontal edges, so that each piece
 /// is smooth.
 template <class F>
 void overDisc(double x0, double x1, double y0, double y1, int order, F&& f) {
-  std::array<double, 6> cuts{std::max(x0, -1.0), -halfChord(y0), halfChord(y0), -halfChord(y1), halfChord(y1),
-                             std::min(x1, 1.0)};
+  std::array<double, 6> cuts{std::max(x0, -1.0), -halfChord(y0), halfChord(y0),
+                             -halfChord(y1),     halfChord(y1),  std::min(x1, 1.0)};
   for (double& cut : cuts) cut = std::clamp(cut, cuts[0], std::max(cuts[0], cuts[5]));
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
@@ -97,15 +109,22 @@ std::span<const MapGeometry::Face> MapGeometry::faces() const {
   static const auto hstrip = place({{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}}, false);
   static const auto vstrip = place({{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}, false);
   switch (mapping_) {
-    case EnvironmentMapping::VerticalCross: return vcross;
-    case EnvironmentMapping::HorizontalCross: return hcross;
-    case EnvironmentMapping::HorizontalStrip: return hstrip;
-    case EnvironmentMapping::VerticalStrip: return vstrip;
-    default: return {};
+    case EnvironmentMapping::VerticalCross:
+      return vcross;
+    case EnvironmentMapping::HorizontalCross:
+      return hcross;
+    case EnvironmentMapping::HorizontalStrip:
+      return hstrip;
+    case EnvironmentMapping::VerticalStrip:
+      return vstrip;
+    default:
+      return {};
   }
 }
 
-std::string toString(EnvironmentMapping mapping) { return info(mapping).name; }
+std::string toString(EnvironmentMapping mapping) {
+  return info(mapping).name;
+}
 
 EnvironmentMapping environmentMappingFromString(const std::string& name) {
   for (const MappingName& m : kMappings)
@@ -114,7 +133,9 @@ EnvironmentMapping environmentMappingFromString(const std::string& name) {
                    "use latlong, vcross, hcross, angular, hstrip or vstrip");
 }
 
-std::span<const EnvironmentMapping> environmentMappings() { return kAll; }
+std::span<const EnvironmentMapping> environmentMappings() {
+  return kAll;
+}
 
 bool fitsMapping(EnvironmentMapping mapping, int width, int height) {
   if (width < 1 || height < 1) return false;
@@ -127,8 +148,8 @@ bool fitsMapping(EnvironmentMapping mapping, int width, int height) {
 MapGeometry::MapGeometry(EnvironmentMapping mapping, int width, int height)
     : mapping_(mapping), width_(width), height_(height) {
   if (!fitsMapping(mapping, width, height))
-    throw ValueError("an image of " + std::to_string(width) + " x " + std::to_string(height) + " cannot be a " +
-                         toString(mapping) + " map",
+    throw ValueError("an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " cannot be a " + toString(mapping) + " map",
                      "environment map", "name the right mapping or crop the image");
   if (info(mapping).cellsX) cell_ = width / info(mapping).cellsX;
 }
@@ -143,17 +164,17 @@ const MapGeometry::Face* MapGeometry::faceAt(double x, double y) const {
 bool MapGeometry::covers(int x, int y) const {
   if (mapping_ == EnvironmentMapping::LatLong) return true;
   if (cell_) return faceAt(x + 0.5, y + 0.5) != nullptr;
-  // The corner nearest to the centre decides whether a square reaches into the disc.
-  const auto nearest = [this](int i) {
-    const double a = 2.0 * i / width_ - 1, b = 2.0 * (i + 1) / width_ - 1;
-    return a > 0 ? a : b < 0 ? b : 0.0;
-  };
-  return nearest(x) * nearest(x) + nearest(y) * nearest(y) < 1;
+  // The point nearest to the centre decides whether a square reaches into the disc.
+  const double u = nearestToCentre(x, width_), v = nearestToCentre(y, width_);
+  return u * u + v * v < 1;
 }
 
 Vec2 MapGeometry::toImage(const Vec3& d) const {
-  // Up to the last float below the edge, so that the pixel index is valid, whatever the direction (NaN gives 0).
-  const auto below = [](float t, int size) { return std::min(std::max(0.0f, t), std::nextafter(float(size), 0.0f)); };
+  // Up to the last float below the edge, so that the pixel index is valid, whatever the direction (NaN gives
+  // 0).
+  const auto below = [](float t, int size) {
+    return std::min(std::max(0.0f, t), std::nextafter(float(size), 0.0f));
+  };
   const auto inside = [&](float x, float y) { return Vec2(below(x, width_), below(y, height_)); };
   if (mapping_ == EnvironmentMapping::LatLong) {
     const float azimuth = std::atan2(d.x, -d.z);
@@ -164,7 +185,8 @@ Vec2 MapGeometry::toImage(const Vec3& d) const {
     const float across = std::hypot(d.x, d.y);
     const float radius = std::atan2(across, -d.z) / kPiF;
     const Vec2 toward = across > 0 ? Vec2(d.x, d.y) / across : Vec2(1, 0);
-    return inside((1 + radius * toward.x) * 0.5f * float(width_), (1 - radius * toward.y) * 0.5f * float(height_));
+    return inside((1 + radius * toward.x) * 0.5f * float(width_),
+                  (1 - radius * toward.y) * 0.5f * float(height_));
   }
   const Face* best = faces().data();
   float along = 0;
@@ -183,7 +205,7 @@ DVec3 MapGeometry::toDirection(double x, double y) const {
   if (mapping_ == EnvironmentMapping::AngularMap) {
     const double u = 2 * x / width_ - 1, v = 1 - 2 * y / height_;
     const double angle = kPi * std::hypot(u, v);
-    if (angle > kPi) return DVec3(0);
+    if (angle > kPi * (1 + 1e-12)) return DVec3(0);  // rounding may lift the rim's points over it
     const double across = kPi * sinc(angle);
     return {u * across, v * across, -std::cos(angle)};
   }
@@ -222,6 +244,40 @@ double MapGeometry::solidAngle(int x, int y) const {
   return area;
 }
 
+/// Where a texel extends to from left to right.
+MapGeometry::Range MapGeometry::columns(int x, int y) const {
+  Range range{double(x), double(x) + 1};
+  if (mapping_ == EnvironmentMapping::AngularMap) {
+    const double half = 0.5 * width_, reach = half * halfChord(nearestToCentre(y, width_));
+    range = {std::max(range.low, half - reach), std::min(range.high, half + reach)};
+  }
+  return range;
+}
+
+/// Where a texel of row y extends to from top to bottom, at abscissa x.
+MapGeometry::Range MapGeometry::rows(int y, double x) const {
+  Range range{double(y), double(y) + 1};
+  if (mapping_ == EnvironmentMapping::AngularMap) {
+    const double half = 0.5 * height_, reach = half * halfChord(x / half - 1);
+    range = {std::max(range.low, half - reach), std::min(range.high, half + reach)};
+  }
+  return range;
+}
+
+glm::dvec2 MapGeometry::pointInTexel(int x, int y, double u, double v) const {
+  const Range across = columns(x, y);
+  const double px = glm::mix(across.low, across.high, u);
+  const Range down = rows(y, px);
+  return {px, glm::mix(down.low, std::max(down.low, down.high), v)};
+}
+
+double MapGeometry::pointDensity(double x, double y) const {
+  if (mapping_ != EnvironmentMapping::AngularMap) return 1;
+  const Range across = columns(int(x), int(y)), down = rows(int(y), x);
+  const double area = (across.high - across.low) * (down.high - down.low);
+  return area > 0 ? 1 / area : 0;
+}
+
 std::vector<TexelNode> MapGeometry::nodes(int x, int y, int order) const {
   std::vector<TexelNode> result;
   if (!covers(x, y)) return result;
@@ -230,8 +286,9 @@ std::vector<TexelNode> MapGeometry::nodes(int x, int y, int order) const {
   };
   if (mapping_ == EnvironmentMapping::AngularMap) {
     const double step = 2.0 / width_;
-    overDisc(x * step - 1, (x + 1) * step - 1, y * step - 1, (y + 1) * step - 1, order,
-             [&](double u, double v, double area) { add((u + 1) / step, (v + 1) / step, area / (step * step)); });
+    overDisc(
+        x * step - 1, (x + 1) * step - 1, y * step - 1, (y + 1) * step - 1, order,
+        [&](double u, double v, double area) { add((u + 1) / step, (v + 1) / step, area / (step * step)); });
   } else {
     onInterval(x, x + 1, order, [&](double px, double wx) {
       onInterval(y, y + 1, order, [&](double py, double wy) { add(px, py, wx * wy); });

@@ -5,9 +5,10 @@
 // +X on the right. Pixel (x, y) covers [x, x+1] x [y, y+1], y down, and is one texel: a region of the
 // sphere, with an exact solid angle, over which the map is constant.
 //   LatLong          any size; the top row looks to +Y, the centre column to -Z, u grows towards +X
-//   VerticalCross    3 x 4 cells: top +Y / left -X, front -Z, right +X / bottom -Y / back +Z turned by 180 degrees
-//   HorizontalCross  4 x 3 cells: top +Y over the second of left -X, front -Z, right +X, back +Z; bottom -Y under it
-//   AngularMap       square; a disc with the front -Z at its centre, radius = angle / pi, the back +Z its rim
+//   VerticalCross    3 x 4 cells: top +Y / left -X, front -Z, right +X / bottom -Y / back +Z turned by 180
+//   degrees HorizontalCross  4 x 3 cells: top +Y over the second of left -X, front -Z, right +X, back +Z;
+//   bottom -Y under it AngularMap       square; a disc with the front -Z at its centre, radius = angle / pi,
+//   the back +Z its rim
 //                    (Debevec's light probe images); outside the disc nothing
 //   HorizontalStrip  6 x 1 cells: right +X, left -X, top +Y, bottom -Y, front -Z, back +Z, oriented as in the
 //                    horizontal cross (these are the pictures of the OpenGL and Direct3D face order)
@@ -21,7 +22,14 @@
 
 namespace prt {
 
-enum class EnvironmentMapping { LatLong, VerticalCross, HorizontalCross, AngularMap, HorizontalStrip, VerticalStrip };
+enum class EnvironmentMapping {
+  LatLong,
+  VerticalCross,
+  HorizontalCross,
+  AngularMap,
+  HorizontalStrip,
+  VerticalStrip
+};
 
 /// "latlong", "vcross", "hcross", "angular", "hstrip", "vstrip".
 std::string toString(EnvironmentMapping mapping);
@@ -60,6 +68,11 @@ class MapGeometry {
   double density(double x, double y) const;
   /// Exact solid angle of a pixel's texel; those of all pixels sum to 4 pi. Zero where nothing is covered.
   double solidAngle(int x, int y) const;
+  /// The point of a texel, in pixels, for (u, v) in [0, 1]^2: all over it, evenly but on the rim of an
+  /// angular map, where columns are shortened to what lies inside the disc.
+  glm::dvec2 pointInTexel(int x, int y, double u, double v) const;
+  /// Density, per pixel area, of pointInTexel at an image position, for even (u, v). 1 away from rims.
+  double pointDensity(double x, double y) const;
   /// Gauss-Legendre nodes over a texel, `order` per side (angular maps: over what lies inside the disc).
   std::vector<TexelNode> nodes(int x, int y, int order) const;
   /// A direction inside the texel: that of the pixel's centre, or, on the rim of an angular map, of the
@@ -70,6 +83,11 @@ class MapGeometry {
 
  private:
   struct Face;
+  struct Range {
+    double low, high;
+  };
+  Range columns(int x, int y) const;
+  Range rows(int y, double x) const;
   const Face* faceAt(double x, double y) const;
   std::span<const Face> faces() const;
 

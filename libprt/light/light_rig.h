@@ -1,6 +1,7 @@
 #pragma once
-// All light that reaches the scene, all of it from infinitely far away: an environment map that can be turned, discs
-// of light in the sky, directional lights and a constant. A plain value; environment maps are shared.
+// All light that reaches the scene, all of it from infinitely far away: an environment map that can be
+// turned, discs of light in the sky, directional lights and a constant. A plain value; environment maps are
+// shared.
 
 #include "libprt/basis/sh.h"
 #include "libprt/core/math.h"
@@ -28,15 +29,16 @@ struct DirectionalLight {
 
 struct LightRig {
   std::shared_ptr<const EnvironmentMap> environment;  ///< may be absent
-  float rotation = 0;   ///< of the environment about +Y, radians; positive is counter-clockwise seen from above
+  float rotation =
+      0;  ///< of the environment about +Y, radians; positive is counter-clockwise seen from above
   float intensity = 1;  ///< multiplies the environment, >= 0
   std::vector<CircleLight> circles;
   std::vector<DirectionalLight> directionals;
   Rgb constant{0};  ///< radiance from everywhere
 };
 
-/// Throws ValueError, naming the light, when a direction is not of unit length, a half-angle is outside (0, pi],
-/// a colour or the intensity is negative, or anything is not finite.
+/// Throws ValueError, naming the light, when a direction is not of unit length, a half-angle is outside (0,
+/// pi], a colour or the intensity is negative, or anything is not finite.
 void validate(const LightRig& rig);
 
 /// The rotation that an environment angle stands for: world = environmentRotation(angle) * map direction.
@@ -48,8 +50,8 @@ Rgb radiance(const LightRig& rig, const Vec3& d);
 /// The same for many lookups: toMap = transpose(environmentRotation(rig.rotation)), made once.
 Rgb radiance(const LightRig& rig, const Mat3& toMap, const Vec3& d);
 
-/// Solid angle of a disc of this half-angle, accurate for tiny ones.
-double capSolidAngle(double halfAngle);
+/// Solid angle of the light's disc, accurate for tiny ones.
+double solidAngle(const CircleLight& light);
 /// Whether unit direction `d` lies in the light's disc, accurate for tiny ones.
 bool contains(const CircleLight& light, const Vec3& d);
 

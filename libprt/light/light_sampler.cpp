@@ -1,5 +1,7 @@
 #include "libprt/light/light_sampler.h"
 
+#include "libprt/core/warp.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -19,23 +21,11 @@ std::size_t chooseBin(std::span<const double> cumulative, double& u) {
   // The first value above u ends the bin. Bins of zero width are never chosen; should rounding lift u
   // to 1, the last bin that has any width is.
   auto end = std::upper_bound(cumulative.begin(), cumulative.end(), u);
-  if (end == cumulative.end()) end = std::lower_bound(cumulative.begin(), cumulative.end(), cumulative.back());
+  if (end == cumulative.end())
+    end = std::lower_bound(cumulative.begin(), cumulative.end(), cumulative.back());
   const std::size_t bin = std::size_t(end - cumulative.begin()) - 1;
   u = std::clamp((u - cumulative[bin]) / (cumulative[bin + 1] - cumulative[bin]), 0.0, 1.0);
   return bin;
-}
-
-Vec3 sampleSphere(double u, double v) {
-  const double z = 1 - 2 * u, r = std::sqrt(std::max(0.0, 1 - z * z));
-  return {float(r * std::cos(2 * kPi * v)), float(r * std::sin(2 * kPi * v)), float(z)};
-}
-
-Vec3 sampleCircle(const CircleLight& light, double u, double v) {
-  const double s = std::sin(0.5 * double(light.halfAngle));
-  const double drop = 2 * s * s * u;  // 1 - cos of the angle off the axis
-  const double r = std::sqrt(drop * (2 - drop));
-  const Vec3 local(float(r * std::cos(2 * kPi * v)), float(r * std::sin(2 * kPi * v)), float(1 - drop));
-  return normalize(frameFromNormal(light.direction).toWorld(local));
 }
 
 }  // namespace
@@ -48,7 +38,7 @@ LightSampler::LightSampler(LightRig rig) : rig_(std::move(rig)) {
   constantPower_ = 4 * kPi * luminance(rig_.constant);
   total_ = environmentPower_ + constantPower_;
   for (const CircleLight& light : rig_.circles) {
-    circlePower_.push_back(capSolidAngle(light.halfAngle) * luminance(light.radiance));
+    circlePower_.push_back(solidAngle(light) * luminance(light.radiance));
     total_ += circlePower_.back();
   }
 }
@@ -61,7 +51,8 @@ void LightSampler::addEnvironment() {
   for (std::size_t y = 0; y < h; ++y) {
     const std::span<double> row(columnCdf_.data() + y * (w + 1), w + 1);
     for (std::size_t x = 0; x < w; ++x)
-      row[x + 1] = row[x] + map.geometry().solidAngle(int(x), int(y)) * luminance(map.pixels().rgb(int(x), int(y)));
+      row[x + 1] =
+          row[x] + map.geometry().solidAngle(int(x), int(y)) * luminance(map.pixels().rgb(int(x), int(y)));
     rowCdf_[y + 1] = rowCdf_[y] + row[w];
     normalize(row);
   }
@@ -69,13 +60,14 @@ void LightSampler::addEnvironment() {
   normalize(rowCdf_);
 }
 
-/// A texel by its power, then a point spread evenly over its pixel.
+/// A texel by its power, then a point of it.
 Vec3 LightSampler::sampleEnvironment(double u, double v) const {
   const MapGeometry& geometry = rig_.environment->geometry();
   const std::size_t w = std::size_t(geometry.width());
   const std::size_t y = chooseBin(rowCdf_, u);
   const std::size_t x = chooseBin(std::span(columnCdf_).subspan(y * (w + 1), w + 1), v);
-  return toWorld_ * Vec3(geometry.toDirection(double(x) + v, double(y) + u));
+  const glm::dvec2 p = geometry.pointInTexel(int(x), int(y), v, u);
+  return toWorld_ * Vec3(geometry.toDirection(p.x, p.y));
 }
 
 double LightSampler::environmentPdf(const Vec3& d) const {
@@ -85,7 +77,7 @@ double LightSampler::environmentPdf(const Vec3& d) const {
   if (density <= 0) return 0;
   const std::size_t x = std::size_t(p.x), y = std::size_t(p.y), w = std::size_t(geometry.width());
   const double* row = columnCdf_.data() + y * (w + 1);
-  return (rowCdf_[y + 1] - rowCdf_[y]) * (row[x + 1] - row[x]) / density;
+  return (rowCdf_[y + 1] - rowCdf_[y]) * (row[x + 1] - row[x]) * geometry.pointDensity(p.x, p.y) / density;
 }
 
 LightSample LightSampler::sample(const Vec2& u) const {
@@ -95,15 +87,17 @@ LightSample LightSampler::sample(const Vec2& u) const {
   if (power < environmentPower_) {
     result.direction = sampleEnvironment(power / environmentPower_, u.y);
   } else if ((power -= environmentPower_) < constantPower_) {
-    result.direction = sampleSphere(power / constantPower_, u.y);
+    result.direction = sampleUniformSphere({float(power / constantPower_), u.y});
   } else {
     power -= constantPower_;
     std::size_t i = 0;
     while (i + 1 < circlePower_.size() && power >= circlePower_[i]) power -= circlePower_[i++];
     if (i == circlePower_.size()) return {};
-    result.direction = sampleCircle(rig_.circles[i], std::min(1.0, power / circlePower_[i]), u.y);
+    const Frame frame = frameFromNormal(rig_.circles[i].direction);
+    const Vec2 inside(std::min(1.0f, float(power / circlePower_[i])), u.y);
+    result.direction =
+        normalize(frame.toWorld(sampleUniformCone(inside, coneHeight(rig_.circles[i].halfAngle))));
   }
-  if (dot(result.direction, result.direction) < 0.5f) return {};  // outside an angular map's disc
   result.radiance = radiance(result.direction);
   result.pdf = pdf(result.direction);
   return result;
@@ -115,7 +109,7 @@ float LightSampler::pdf(const Vec3& d) const {
   if (environmentPower_ > 0) density += environmentPower_ * environmentPdf(d);
   for (std::size_t i = 0; i < circlePower_.size(); ++i)
     if (circlePower_[i] > 0 && contains(rig_.circles[i], d))
-      density += circlePower_[i] / capSolidAngle(rig_.circles[i].halfAngle);
+      density += circlePower_[i] / solidAngle(rig_.circles[i]);
   return float(density / total_);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Random directions towards light, for the path tracer: a mixture of the environment's texels (by their power,
-// exactly, row then column), circle lights and the constant. Directional lights cannot be hit and are
+// Random directions towards light, for the path tracer: a mixture of the environment's texels (by their
+// power, exactly, row then column), circle lights and the constant. Directional lights cannot be hit and are
 // listed apart. sample(), pdf() and radiance() describe the same piecewise-constant function.
 
 #include "libprt/core/math.h"
@@ -14,7 +14,7 @@ namespace prt {
 struct LightSample {
   Vec3 direction{0, 1, 0};
   Rgb radiance{0};  ///< all light from that direction
-  float pdf = 0;    ///< per solid angle; 0 = no sample (nothing shines, or the point fell outside the map's disc)
+  float pdf = 0;    ///< per solid angle; 0 = no sample: nothing shines
 };
 
 /// Thread-safe once made. Costs one pass over the environment map.

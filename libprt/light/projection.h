@@ -18,16 +18,17 @@ ShRgb projectEnvironment(const EnvironmentMap& map, int bands, Job& job);
 
 /// How much of a light each band holds.
 struct BandSpectrum {
-  double energy = 0;             ///< integral of luminance squared over the sphere, all bands: of the map itself
-  std::vector<double> power;     ///< [bands] sum over m of the squared luminance coefficients
-  std::vector<double> truncation;  ///< [bands] relative L2 error of keeping bands 0..l: sqrt(energy beyond / energy)
+  double energy = 0;          ///< integral of luminance squared over the sphere, all bands: of the map itself
+  std::vector<double> power;  ///< [bands] sum over m of the squared luminance coefficients
+  std::vector<double>
+      truncation;  ///< [bands] relative L2 error of keeping bands 0..l: sqrt(energy beyond / energy)
 };
 
 /// Spectrum of a map's luminance for `bands` bands (l = 32 is 33 bands).
 BandSpectrum bandSpectrum(const EnvironmentMap& map, const ShRgb& coefficients);
 
 /// The light as a non-negative function of the same bands: convolved with the sharpest non-negative
-/// kernel (Fejer window, see windows.h). What "band-limited light" means in tests.
+/// kernel (Fejer window, see sh_window.h). What "band-limited light" means in tests.
 ShRgb nonNegativeLight(const ShRgb& light);
 
 /// A lat-long map whose pixels hold the mean of `light` over their texel, so that projecting the map

@@ -18,7 +18,7 @@ struct Material {
   MaterialModel model = MaterialModel::Lambert;
   Rgb albedo{0.5f};
   Rgb specular{0.0f};
-  float exponent = 32;  ///< 1 .. 10 000
+  float exponent = 32;    ///< 1 .. 10 000
   bool twoSided = false;  ///< back faces reflect too; otherwise they only block light
 
   bool glossy() const { return model != MaterialModel::Lambert && luminance(specular) > 0; }

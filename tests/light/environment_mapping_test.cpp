@@ -1,5 +1,6 @@
-#include "libprt/core/error.h"
 #include "libprt/light/environment_mapping.h"
+#include "libprt/core/error.h"
+#include "tests/light/light_test_support.h"
 
 #include <gtest/gtest.h>
 
@@ -10,18 +11,8 @@ namespace {
 
 using M = EnvironmentMapping;
 
-/// One geometry of each mapping, faces `cell` pixels wide or so, in the order of the enumeration.
-std::vector<MapGeometry> oneOfEach(int cell) {
-  return {{M::LatLong, 4 * cell, 2 * cell},         {M::VerticalCross, 3 * cell, 4 * cell},
-          {M::HorizontalCross, 4 * cell, 3 * cell}, {M::AngularMap, 4 * cell, 4 * cell},
-          {M::HorizontalStrip, 6 * cell, cell},     {M::VerticalStrip, cell, 6 * cell}};
-}
-
-DVec3 randomDirection(std::mt19937& rng) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(rng), y = gauss(rng), z = gauss(rng);
-  return normalize(DVec3(x, y, z));
-}
+using test::oneOfEach;
+using test::randomDirection;
 
 TEST(EnvironmentMapping, NamesRoundTrip) {
   for (const M m : environmentMappings()) EXPECT_EQ(environmentMappingFromString(toString(m)), m);
@@ -98,25 +89,42 @@ struct Landmark {
 TEST(EnvironmentMapping, AxesLieWhereTheConventionsSay) {
   const DVec3 right(1, 0, 0), left(-1, 0, 0), top(0, 1, 0), bottom(0, -1, 0), front(0, 0, -1), back(0, 0, 1);
   const double t = 1.0 / 3, e = 1.0 / 8, s = 1.0 / 6, w = 1.0 / 12, rim = 1e-9;
-  const std::vector<Landmark> landmarks{
-      {M::LatLong, 0.5, 0.5, front},           {M::LatLong, 0.75, 0.5, right},
-      {M::LatLong, 0.25, 0.5, left},           {M::LatLong, 0.5, rim, top},
-      {M::LatLong, 0.5, 1 - rim, bottom},      {M::LatLong, rim, 0.5, back},
-      {M::VerticalCross, 0.5, 3 * e, front},   {M::VerticalCross, t / 2, 3 * e, left},
-      {M::VerticalCross, 2.5 * t, 3 * e, right}, {M::VerticalCross, 0.5, e, top},
-      {M::VerticalCross, 0.5, 5 * e, bottom},  {M::VerticalCross, 0.5, 7 * e, back},
-      {M::HorizontalCross, 3 * e, 0.5, front}, {M::HorizontalCross, e, 0.5, left},
-      {M::HorizontalCross, 5 * e, 0.5, right}, {M::HorizontalCross, 7 * e, 0.5, back},
-      {M::HorizontalCross, 3 * e, t / 2, top}, {M::HorizontalCross, 3 * e, 2.5 * t, bottom},
-      {M::AngularMap, 0.5, 0.5, front},        {M::AngularMap, 0.75, 0.5, right},
-      {M::AngularMap, 0.25, 0.5, left},        {M::AngularMap, 0.5, 0.25, top},
-      {M::AngularMap, 0.5, 0.75, bottom},      {M::AngularMap, 1 - rim, 0.5, back},
-      {M::HorizontalStrip, w, 0.5, right},     {M::HorizontalStrip, w + s, 0.5, left},
-      {M::HorizontalStrip, w + 2 * s, 0.5, top}, {M::HorizontalStrip, w + 3 * s, 0.5, bottom},
-      {M::HorizontalStrip, w + 4 * s, 0.5, front}, {M::HorizontalStrip, w + 5 * s, 0.5, back},
-      {M::VerticalStrip, 0.5, w, right},       {M::VerticalStrip, 0.5, w + s, left},
-      {M::VerticalStrip, 0.5, w + 2 * s, top}, {M::VerticalStrip, 0.5, w + 3 * s, bottom},
-      {M::VerticalStrip, 0.5, w + 4 * s, front}, {M::VerticalStrip, 0.5, w + 5 * s, back}};
+  const std::vector<Landmark> landmarks{{M::LatLong, 0.5, 0.5, front},
+                                        {M::LatLong, 0.75, 0.5, right},
+                                        {M::LatLong, 0.25, 0.5, left},
+                                        {M::LatLong, 0.5, rim, top},
+                                        {M::LatLong, 0.5, 1 - rim, bottom},
+                                        {M::LatLong, rim, 0.5, back},
+                                        {M::VerticalCross, 0.5, 3 * e, front},
+                                        {M::VerticalCross, t / 2, 3 * e, left},
+                                        {M::VerticalCross, 2.5 * t, 3 * e, right},
+                                        {M::VerticalCross, 0.5, e, top},
+                                        {M::VerticalCross, 0.5, 5 * e, bottom},
+                                        {M::VerticalCross, 0.5, 7 * e, back},
+                                        {M::HorizontalCross, 3 * e, 0.5, front},
+                                        {M::HorizontalCross, e, 0.5, left},
+                                        {M::HorizontalCross, 5 * e, 0.5, right},
+                                        {M::HorizontalCross, 7 * e, 0.5, back},
+                                        {M::HorizontalCross, 3 * e, t / 2, top},
+                                        {M::HorizontalCross, 3 * e, 2.5 * t, bottom},
+                                        {M::AngularMap, 0.5, 0.5, front},
+                                        {M::AngularMap, 0.75, 0.5, right},
+                                        {M::AngularMap, 0.25, 0.5, left},
+                                        {M::AngularMap, 0.5, 0.25, top},
+                                        {M::AngularMap, 0.5, 0.75, bottom},
+                                        {M::AngularMap, 1 - rim, 0.5, back},
+                                        {M::HorizontalStrip, w, 0.5, right},
+                                        {M::HorizontalStrip, w + s, 0.5, left},
+                                        {M::HorizontalStrip, w + 2 * s, 0.5, top},
+                                        {M::HorizontalStrip, w + 3 * s, 0.5, bottom},
+                                        {M::HorizontalStrip, w + 4 * s, 0.5, front},
+                                        {M::HorizontalStrip, w + 5 * s, 0.5, back},
+                                        {M::VerticalStrip, 0.5, w, right},
+                                        {M::VerticalStrip, 0.5, w + s, left},
+                                        {M::VerticalStrip, 0.5, w + 2 * s, top},
+                                        {M::VerticalStrip, 0.5, w + 3 * s, bottom},
+                                        {M::VerticalStrip, 0.5, w + 4 * s, front},
+                                        {M::VerticalStrip, 0.5, w + 5 * s, back}};
   const auto geometries = oneOfEach(9);
   for (const Landmark& mark : landmarks) {
     const MapGeometry& g = geometries[std::size_t(mark.mapping)];
@@ -175,7 +183,8 @@ TEST(EnvironmentMapping, NoDirectionLeadsOutsideTheImage) {
   for (const MapGeometry& g : oneOfEach(4))
     for (const Vec3& d : directions) {
       const Vec2 p = g.toImage(d);
-      EXPECT_TRUE(p.x >= 0 && p.x < float(g.width()) && p.y >= 0 && p.y < float(g.height())) << toString(g.mapping());
+      EXPECT_TRUE(p.x >= 0 && p.x < float(g.width()) && p.y >= 0 && p.y < float(g.height()))
+          << toString(g.mapping());
     }
 }
 

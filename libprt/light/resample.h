@@ -1,0 +1,13 @@
+#pragma once
+// Environment maps at another size, or in the mapping that everybody else reads.
+
+#include "libprt/light/environment.h"
+
+namespace prt {
+
+/// The same light as a lat-long map: each pixel the mean over its region of the sphere. Total energy is kept
+/// to float rounding, that of each lamp or sun to about 1e-3, and a constant map stays constant. From
+/// lat-long maps all overlaps of texels are exact; from other mappings they are measured at sample points.
+EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height);
+
+}  // namespace prt
