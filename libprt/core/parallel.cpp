@@ -3,22 +3,73 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_scheduler_observer.h>
 
 #include <immintrin.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace prt {
 namespace {
 
+constexpr int kBackgroundNice = 10;
+constexpr int kLeavesOneFree = 4;  // threads from which on background work leaves one free
+
+thread_local bool inBackground = false;
+
+/// Says for its life whether this thread does background work.
+class Standing {
+ public:
+  explicit Standing(bool background) : before_(std::exchange(inBackground, background)) {}
+  ~Standing() { inBackground = before_; }
+  Standing(const Standing&) = delete;
+  Standing& operator=(const Standing&) = delete;
+
+ private:
+  bool before_;
+};
+
+/// On Linux every thread has a nice value of its own. Raising it is always allowed, lowering it is not, so
+/// a worker that once did background work stays there.
+void lowerOsPriority() {
+  const auto thread = id_t(::gettid());
+  if (::getpriority(PRIO_PROCESS, thread) < kBackgroundNice)
+    ::setpriority(PRIO_PROCESS, thread, kBackgroundNice);
+}
+
+class LowerWorkers : public tbb::task_scheduler_observer {
+ public:
+  explicit LowerWorkers(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) { observe(true); }
+  ~LowerWorkers() override { observe(false); }
+  void on_scheduler_entry(bool isWorker) override {
+    if (isWorker) lowerOsPriority();
+  }
+};
+
+struct Arena {
+  tbb::task_arena arena;
+  std::unique_ptr<LowerWorkers> lowerWorkers;  // goes before the arena
+
+  Arena(int threads, bool background)
+      : arena(threads, 1, background ? tbb::task_arena::priority::low : tbb::task_arena::priority::normal) {
+    if (!background) return;
+    arena.initialize();
+    lowerWorkers = std::make_unique<LowerWorkers>(arena);
+  }
+};
+
 struct Pool {
   std::mutex mutex;
   int count = 0;
-  std::shared_ptr<tbb::task_arena> arena;
-  std::unique_ptr<tbb::global_control> limit;  // lets an arena hold more threads than there are cores
+  std::array<std::shared_ptr<Arena>, 2> arenas;  // foreground, background
+  std::unique_ptr<tbb::global_control> limit;    // lets an arena hold more threads than there are cores
 };
 
 Pool& pool() {
@@ -27,31 +78,33 @@ Pool& pool() {
 }
 
 int resolved(int count) {
-  return count > 0 ? count : std::max(1u, std::thread::hardware_concurrency());
+  return count > 0 ? count : int(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-std::shared_ptr<tbb::task_arena> arena() {
-  std::lock_guard lock(pool().mutex);
+std::shared_ptr<Arena> arenaFor(bool background) {
   Pool& p = pool();
-  if (!p.arena) {
+  const std::lock_guard lock(p.mutex);
+  std::shared_ptr<Arena>& arena = p.arenas[background];
+  if (!arena) {
     const int threads = resolved(p.count);
     p.limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     std::size_t(std::max(threads, resolved(0))));
-    p.arena = std::make_shared<tbb::task_arena>(threads);
+    arena =
+        std::make_shared<Arena>(background && threads >= kLeavesOneFree ? threads - 1 : threads, background);
   }
-  return p.arena;
+  return arena;
 }
 
 }  // namespace
 
 void setThreadCount(int count) {
-  std::lock_guard lock(pool().mutex);
+  const std::lock_guard lock(pool().mutex);
   pool().count = std::max(0, count);
-  pool().arena.reset();
+  for (auto& arena : pool().arenas) arena.reset();
 }
 
 int threadCount() {
-  std::lock_guard lock(pool().mutex);
+  const std::lock_guard lock(pool().mutex);
   return resolved(pool().count);
 }
 
@@ -60,19 +113,31 @@ void parallelFor(Job& job, std::size_t begin, std::size_t end, std::size_t grain
   if (begin >= end) return;
   grain = std::max<std::size_t>(1, grain);
   const std::size_t tiles = (end - begin + grain - 1) / grain;
+  const bool background = inBackground;
   const auto runTile = [&](std::size_t tile) {
     job.checkCancelled();
     const FlushDenormals flush;
+    const Standing standing(background);  // loops inside this one stay where it is
     const std::size_t first = begin + tile * grain;
     body(first, std::min(first + grain, end));
   };
-  const auto used = arena();  // kept alive should the thread count change meanwhile
-  used->execute([&] {
-    tbb::parallel_for(std::size_t{0}, tiles, std::size_t{1}, runTile, tbb::simple_partitioner());
-  });
+  const auto used = arenaFor(background);  // kept alive should the thread count change meanwhile
+  used->arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, tiles, std::size_t{1}, runTile, tbb::simple_partitioner()); });
 }
 
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040); }
-FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+BackgroundWork::BackgroundWork() : before_(std::exchange(inBackground, true)) {
+  lowerOsPriority();
+}
+BackgroundWork::~BackgroundWork() {
+  inBackground = before_;
+}
+
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+  _mm_setcsr(saved_ | 0x8040);
+}
+FlushDenormals::~FlushDenormals() {
+  _mm_setcsr(saved_);
+}
 
 }  // namespace prt

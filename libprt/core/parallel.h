@@ -21,6 +21,22 @@ int threadCount();
 void parallelFor(Job& job, std::size_t begin, std::size_t end, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// While it lives, parallel loops that this thread starts, and those inside of them, are background work,
+/// such as a bake behind an interface: they run in an arena of their own at lower priority than other loops
+/// (threads go to those first) and their threads at lower OS priority (nice 10). With 4 threads or more one
+/// is left free; with fewer that would cost too much, and the OS priority alone keeps an interface
+/// responsive. This thread keeps the lower OS priority afterwards: use it on a thread made for such work.
+class BackgroundWork {
+ public:
+  BackgroundWork();
+  ~BackgroundWork();
+  BackgroundWork(const BackgroundWork&) = delete;
+  BackgroundWork& operator=(const BackgroundWork&) = delete;
+
+ private:
+  bool before_;
+};
+
 /// Sets flush-to-zero and denormals-are-zero on this thread for the life of the object.
 class FlushDenormals {
  public:

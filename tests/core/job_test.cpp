@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
-#include <vector>
 
 namespace prt {
 namespace {
@@ -52,27 +52,6 @@ TEST(Job, ListenerHearsTheEnd) {
   job.begin("work", 100, "items");
   for (int i = 0; i < 100; ++i) job.advance(1);
   EXPECT_EQ(last, 1.0);
-}
-
-TEST(Parallel, TilesDoNotDependOnTheThreadCount) {
-  const auto tiles = [](int threads) {
-    setThreadCount(threads);
-    std::vector<int> firstOfTile(103, -1);
-    Job job;
-    parallelFor(job, 0, 103, 10, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) firstOfTile[i] = int(begin);
-    });
-    setThreadCount(0);
-    return firstOfTile;
-  };
-  EXPECT_EQ(tiles(1), tiles(4));
-  EXPECT_EQ(tiles(1)[102], 100);
-}
-
-TEST(Parallel, ExceptionsOfABodyComeBack) {
-  Job job;
-  EXPECT_THROW(parallelFor(job, 0, 10, 1, [](std::size_t, std::size_t) { throw ValueError("bad", "here", ""); }),
-               ValueError);
 }
 
 TEST(Error, MessageIsOneLineWithWhatWhereAndFix) {
