@@ -40,12 +40,13 @@ const Stage& stageNamed(const std::vector<Stage>& table, const std::string& name
   throw ValueError("there is no stage '" + name + "'", "", list);
 }
 
-std::string keyOf(const Stage& stage, const std::vector<Value>& values, const std::map<std::string, std::string>& keys,
-                  const std::vector<std::string>& without) {
+std::string keyOf(const Stage& stage, const Recipe& recipe, const std::vector<Value>& values,
+                  const std::map<std::string, std::string>& keys, const std::vector<std::string>& without) {
   Hasher hasher;
   hasher.add(stage.name).add(stage.version);
   for (const Value& value : values)
     if (coversAny(stage.reads, value.pattern) && !coversAny(without, value.pattern)) hasher.add(value.text);
+  if (stage.derives) hasher.add(stage.derives(recipe));
   for (const std::string& input : stage.inputs) hasher.add(keys.at(input));
   return hasher.result().hex();
 }
@@ -57,11 +58,11 @@ class PipelineRun {
  public:
   PipelineRun(Pipeline& pipeline, const Recipe& recipe, Job& job, PipelineListener* listener)
       : pipeline_(pipeline), recipe_(resolved(recipe)), job_(job), listener_(listener), values_(readValues()) {
-    for (const Stage& stage : table()) keys_[stage.name] = keyOf(stage, values_, keys_, {});
+    for (const Stage& stage : table()) keys_[stage.name] = keyOf(stage, recipe_, values_, keys_, {});
   }
 
   const std::map<std::string, std::string>& keys() const { return keys_; }
-  std::string checkpointKey(const Stage& stage) const { return keyOf(stage, values_, keys_, stage.extends); }
+  std::string checkpointKey(const Stage& stage) const { return keyOf(stage, recipe_, values_, keys_, stage.extends); }
 
   Products make(const std::vector<std::string>& targets) {
     for (const std::string& target : targets) wanted_.insert(stageNamed(table(), target).name);
@@ -70,10 +71,7 @@ class PipelineRun {
   }
 
   Products find(const std::vector<std::string>& targets) {
-    for (const std::string& target : targets) {
-      const Stage& stage = stageNamed(table(), target);
-      if (auto state = existing(stage)) states_[stage.name] = *state;
-    }
+    for (const std::string& target : targets) findOrDerive(stageNamed(table(), target));
     return {std::move(states_)};
   }
 
@@ -86,6 +84,7 @@ class PipelineRun {
   std::vector<Value> readValues();
   const State& need(const Stage& stage);
   std::optional<State> existing(const Stage& stage);
+  bool findOrDerive(const Stage& stage);
   void runStage(const Stage& stage);
   void finish(const Stage& stage, State state, bool made);
   void announce(const Stage& stage, State state);
@@ -117,7 +116,7 @@ class PipelineRun::Run : public StageRun {
   Job& job() override { return run_.job_; }
   const ProductState& inputState(const std::string& stage) const override { return run_.states_.at(stage); }
   bool fromPreview() const override { return previewing_; }
-  bool wantsPreviews() const override { return run_.listener_ && !previewing_; }
+  bool wantsPreviews() const override { return run_.listener_ && run_.listener_->wantsPreviews() && !previewing_; }
 
   void preview(ProductPtr product, int level, int levels) override {
     if (previewing_) return;
@@ -131,8 +130,12 @@ class PipelineRun::Run : public StageRun {
   }
 
   void offerCheckpoint(const std::function<ProductData()>& save) override {
+    if (due()) keepCheckpoint(save);
+  }
+
+  void keepCheckpoint(const std::function<ProductData()>& save) override {
     ProductStore* store = run_.pipeline_.store_;
-    if (!store || previewing_ || !due()) return;
+    if (!store || previewing_) return;
     const auto before = Clock::now();
     store->putCheckpoint(stage_.name, checkpointKey_, save());
     written_ = Clock::now();
@@ -194,6 +197,20 @@ const ProductState& PipelineRun::need(const Stage& stage) {
     runStage(stage);
   }
   return states_.at(stage.name);
+}
+
+/// What is there; products that are never stored are made if what they need is there.
+bool PipelineRun::findOrDerive(const Stage& stage) {
+  if (states_.contains(stage.name)) return true;
+  if (auto state = existing(stage)) {
+    states_[stage.name] = *state;
+    return true;
+  }
+  if (stage.stored) return false;
+  for (const std::string& input : stage.inputs)
+    if (!findOrDerive(stageNamed(table(), input))) return false;
+  runStage(stage);
+  return true;
 }
 
 void PipelineRun::runStage(const Stage& stage) {

@@ -20,6 +20,8 @@ class PipelineListener {
   /// `made`: false when it was found in the project.
   virtual void stageDone(const Stage&, const ProductState&, bool /*made*/) {}
   virtual void preview(const Stage&, const ProductState&) {}
+  /// Without a listener that wants them no previews are made.
+  virtual bool wantsPreviews() const { return true; }
 };
 
 /// The products of a run, by stage.

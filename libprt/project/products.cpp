@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 namespace prt {
 namespace {
 
@@ -51,6 +53,12 @@ TriMesh loadTriMesh(const ProductData& data, std::size_t object) {
   return mesh;
 }
 
+json metaOf(const ProductData& data) {
+  json meta = json::parse(data.meta, nullptr, false);
+  if (!meta.is_object()) throw FileError("a product has no description", "project", "bake again");
+  return meta;
+}
+
 }  // namespace
 
 ProductData MeshProduct::save() const {
@@ -69,8 +77,8 @@ ProductData MeshProduct::save() const {
 }
 
 ProductPtr MeshProduct::load(ProductData data) {
-  const json meta = json::parse(data.meta, nullptr, false);
-  if (!meta.is_object() || !meta.contains("objects") || !meta["objects"].is_array())
+  const json meta = metaOf(data);
+  if (!meta.contains("objects") || !meta["objects"].is_array())
     throw FileError("the list of meshes is missing", "project", "bake again");
   auto product = std::make_shared<MeshProduct>();
   for (std::size_t i = 0; i < meta["objects"].size(); ++i) {
@@ -80,7 +88,9 @@ ProductPtr MeshProduct::load(ProductData data) {
   return product;
 }
 
-ProductData SceneProduct::save() const { return {}; }
+std::string MeshProduct::repairText(std::size_t object) const {
+  return json::parse(reports[object]).value("text", "nothing to repair");
+}
 
 Scene withMaterials(Scene scene, const Recipe& recipe) {
   if (scene.materials.size() != recipe.objects.size())

@@ -4,6 +4,8 @@
 #include "libprt/mesh/mesh.h"
 #include "libprt/project/product.h"
 #include "libprt/project/recipe.h"
+#include "libprt/transport/ray_scene.h"
+#include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
 
 #include <memory>
@@ -17,15 +19,33 @@ struct MeshProduct : Product {
   std::vector<std::shared_ptr<const TriMesh>> meshes;  ///< [objects]
   std::vector<std::string> reports;  ///< [objects] what was repaired, as JSON; "{}" for built-in meshes
 
+  /// What was repaired in one object, in words.
+  std::string repairText(std::size_t object) const;
+
   ProductData save() const override;
   static ProductPtr load(ProductData data);
 };
 
-/// Stage "scene": all objects in the common frame. Materials are the default ones: geometry alone decides
-/// what is visible. See withMaterials().
+/// Stage "scene": all objects in the common frame. Of the materials only twoSided is the recipe's:
+/// geometry alone decides what is visible. See withMaterials().
 struct SceneProduct : Product {
-  Scene scene;
-  ProductData save() const override;
+  explicit SceneProduct(Scene s) : scene(std::make_shared<Scene>(std::move(s))) {}
+  std::shared_ptr<const Scene> scene;
+  ProductData save() const override { return {}; }
+};
+
+/// Stage "samples": one per vertex, and one on the back of each vertex of a two-sided object.
+struct SamplesProduct : Product {
+  explicit SamplesProduct(SampleSet s) : samples(std::make_shared<SampleSet>(std::move(s))) {}
+  std::shared_ptr<const SampleSet> samples;
+  ProductData save() const override { return {}; }
+};
+
+/// Stage "rays".
+struct RaysProduct : Product {
+  explicit RaysProduct(const Scene& scene) : rays(std::make_shared<RayScene>(scene)) {}
+  std::shared_ptr<const RayScene> rays;
+  ProductData save() const override { return {}; }
 };
 
 /// The scene with the materials and names that the recipe has now. Throws ValueError when the recipe has

@@ -204,6 +204,17 @@ void ProjectFile::write(const std::string& stage, const std::string& key, const 
   insert.bind(info.meta).bind(productChecksum(info, role)).run();
   writeProject();
   transaction.commit();
+  written_ = true;
+}
+
+void ProjectFile::importFrom(ProjectFile& other) {
+  for (const ProductRow& row : readProductRows(other.current())) {
+    const ProductInfo& info = row.info;
+    const auto there = read(info.stage, info.key, row.role);
+    if (!there || there->level < info.level) write(info.stage, info.key, row.role, *other.read(info.stage, info.key, row.role));
+  }
+  for (const auto& [path, hash] : other.sources_)
+    putSourceHash(rebasedPath(path, folderOf(other.file_), folderOf(file_)), hash);
 }
 
 std::unique_ptr<ProductStore::Stored> ProjectFile::find(const std::string& stage, const std::string& key) {
@@ -250,7 +261,7 @@ void ProjectFile::save() {
     throw FileError("cannot be replaced: " + reason(errno), file_.string(), "check its permissions and those of its folder");
   syncPath(folderOf(file_), O_RDONLY | O_DIRECTORY);
   saved_ = openChecked(file_, Database::Mode::ReadOnly);
-  resumed_ = false;
+  resumed_ = written_ = false;
 }
 
 void ProjectFile::discardWork() {
@@ -258,6 +269,7 @@ void ProjectFile::discardWork() {
   const fs::path file = work_->file();
   work_.reset();
   removeWork(file);
+  resumed_ = written_ = false;
   if (saved_) readProject();
 }
 

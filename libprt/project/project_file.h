@@ -61,7 +61,10 @@ class ProjectFile : public ProductStore {
   static std::filesystem::path workFile(const std::filesystem::path& file);
   /// Work of an earlier process was found.
   bool resumed() const { return resumed_; }
-  bool hasWork() const { return work_ != nullptr; }
+  /// There is a saved state under the file's own name.
+  bool saved() const { return saved_ != nullptr; }
+  /// The working copy holds products or checkpoints that the saved project does not.
+  bool hasNewWork() const { return work_ && (resumed_ || written_); }
 
   const Recipe& recipe() const { return recipe_; }
   void setRecipe(const Recipe& recipe);
@@ -74,6 +77,9 @@ class ProjectFile : public ProductStore {
   void putSourceHash(const std::string& path, const std::string& hash) override;
 
   std::vector<ProductInfo> contents();
+
+  /// Takes over what another project has and this one lacks.
+  void importFrom(ProjectFile& other);
 
   /// Removes every product and checkpoint whose key is not among these (Pipeline::liveKeys), and gives
   /// the space back.
@@ -113,7 +119,7 @@ class ProjectFile : public ProductStore {
   Recipe recipe_;
   std::map<std::string, std::string> sources_;
   std::string base_;  // checksum of the saved project that the working copy began from
-  bool resumed_ = false;
+  bool resumed_ = false, written_ = false;
 };
 
 }  // namespace prt

@@ -39,14 +39,18 @@ void checkRecipe(const Recipe& recipe, const std::string& where) {
 
 bool isBuiltin(const std::string& path) { return path.starts_with("builtin:") || path.starts_with("scene:"); }
 
-void rebasePaths(Recipe& recipe, const std::filesystem::path& from, const std::filesystem::path& to) {
+std::string rebasedPath(const std::string& path, const std::filesystem::path& from, const std::filesystem::path& to) {
   namespace fs = std::filesystem;
-  const fs::path base = fs::absolute(from), target = fs::absolute(to);
+  if (path.empty() || isBuiltin(path) || fs::path(path).is_absolute()) return path;
+  const fs::path target = fs::absolute(to).lexically_normal();
+  return (fs::absolute(from) / path).lexically_normal().lexically_relative(target).generic_string();
+}
+
+void rebasePaths(Recipe& recipe, const std::filesystem::path& from, const std::filesystem::path& to) {
   forEachField(recipe, [&](const FieldPlace& place, const FieldRef& field) {
     if (place.parameter.type != ParameterType::File) return;
     std::string& path = *std::get<std::string*>(field);
-    if (path.empty() || isBuiltin(path) || fs::path(path).is_absolute()) return;
-    path = (base / path).lexically_normal().lexically_relative(target.lexically_normal()).generic_string();
+    path = rebasedPath(path, from, to);
   });
 }
 

@@ -164,7 +164,9 @@ nlohmann::json getByPath(const Recipe& recipe, const std::string& path);
 /// Paths of every value in this recipe, with indices.
 std::vector<std::string> pathsOf(const Recipe& recipe);
 
-/// Turns the relative file paths of a recipe kept in folder `from` into those for one kept in `to`.
+/// A relative path seen from folder `from` as one seen from folder `to`; absolute and built-in ones stay.
+std::string rebasedPath(const std::string& path, const std::filesystem::path& from, const std::filesystem::path& to);
+/// The same for all file paths of a recipe.
 void rebasePaths(Recipe& recipe, const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// "builtin:NAME" or "scene:NAME" rather than a file.

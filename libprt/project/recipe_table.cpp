@@ -45,7 +45,7 @@ const char* const kCostLight = "none: relights";
 
 const std::vector<std::string> kMappings{"auto", "latlong", "vcross", "hcross", "angular", "hstrip", "vstrip"};
 const std::vector<std::string> kMethods{"auto", "diffuse", "glossy"};
-const std::vector<std::string> kWindows{"none", "hann", "lanczos", "fejer"};
+const std::vector<std::string> kWindows{"none", "hann", "lanczos", "fejer", "dering"};
 
 const std::vector<Row<ObjectRecipe>> kObject{
     {"name", [](ObjectRecipe& o) -> FieldRef { return &o.name; }, ParameterType::Text, "", 0, 0, {}, "none",
@@ -156,7 +156,7 @@ const std::vector<Row<MethodRecipe>> kMethod{
     {"name", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.name, kMethods); }, ParameterType::Choice, "", 0,
      0, kMethods, kCostLight, "How pictures are made: auto takes what the materials ask for."},
     {"window", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.window, kWindows); }, ParameterType::Choice, "",
-     0, 0, kWindows, kCostLight, "Window on the light's coefficients against ringing."},
+     0, 0, kWindows, kCostLight, "Damps the light's upper bands against ringing; dering damps as little as leaves no negative light."},
 };
 
 /// The rows of one struct under the pattern path of its section.

@@ -4,8 +4,8 @@
 // A stage is a pure function from its inputs (products of other stages) and the parts of the recipe that
 // it reads to one product. Its key is a hash of exactly these, so it runs only when one of them changed.
 //
-//   mesh ─┬─> frames
-//         └─> direct ─> transfer ─> floor
+//   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─> relight
+//                  └─> rays ────┘
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
@@ -49,6 +49,8 @@ class StageRun {
   virtual std::unique_ptr<ProductData> checkpoint() const = 0;
   /// Offers a state to go on from after a crash; `save` is called only when it is time to write one.
   virtual void offerCheckpoint(const std::function<ProductData()>& save) = 0;
+  /// Writes a state in any case: at the end, so that more can be added later, and when cancelled.
+  virtual void keepCheckpoint(const std::function<ProductData()>& save) = 0;
 };
 
 struct Stage {
@@ -60,6 +62,8 @@ struct Stage {
   std::vector<std::string> reads = {};
   /// Of `reads`, those of which more only extends the work: a checkpoint serves any value of them.
   std::vector<std::string> extends = {};
+  /// Further text for the key, worked out from the recipe: when only a consequence of settings matters.
+  std::function<std::string(const Recipe&)> derives = {};
   bool stored = true;    ///< kept in the project; false for what is quicker made than read
   bool previews = true;  ///< quick enough to be run on every preview of its inputs
   std::function<ProductPtr(StageRun&)> make = {};

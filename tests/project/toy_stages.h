@@ -43,7 +43,7 @@ class ToyStages {
 
   template <class F>
   Stage stage(const char* name, std::vector<std::string> inputs, std::vector<std::string> reads, F value) {
-    Stage s{name, "a number", 1, std::move(inputs), std::move(reads), {}, true, true, {}, Number::load};
+    Stage s{.name = name, .makes = "a number", .inputs = std::move(inputs), .reads = std::move(reads), .load = Number::load};
     s.make = [this, name, value](StageRun& run) -> ProductPtr {
       ++runs[name];
       return std::make_shared<Number>(value(run));

@@ -1,0 +1,75 @@
+// prt bake: makes the products of a recipe and saves them in a project.
+
+#include "app/cli/progress_bar.h"
+#include "app/cli/session.h"
+#include "libprt/project/bake.h"
+#include "libprt/project/scenes.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace prt::cli {
+namespace {
+
+struct Options {
+  std::string input, output;
+  std::vector<std::string> assignments, stages;
+  double checkpointSeconds = 5;
+};
+
+/// The table of all parameters for --help.
+std::string parameterHelp() {
+  std::string text = "Settings for --set (short: mesh, transform and material mean objects[0]'s):\n";
+  for (const Parameter& p : parameters()) {
+    text += fmt::format("  {:<36} {} [{}]\n", p.path, p.doc, p.defaultText);
+  }
+  return text + "\nExample:\n  prt bake bunny.obj -o bunny.prt --set transfer.bounces=3 --set material.albedo=0.8,0.4,0.2";
+}
+
+void tell(const Session& session, const BakeSummary& s) {
+  for (const BakeSummary::Object& object : s.objects)
+    session.say(fmt::format("{}: {} vertices, {} triangles; {}", object.name, object.vertices, object.triangles, object.repair));
+  if (!s.transfer.empty()) session.say("transfer: " + s.transfer);
+  if (!s.floor.empty()) session.say(s.floor);
+  for (const BakeSummary::StageTime& stage : s.stages)
+    if (stage.made) session.say(fmt::format("  {:<10} {:8.2f} s", stage.name, stage.seconds));
+  session.say(fmt::format("saved {} ({})", s.file.string(), byteCount(double(s.bytes))));
+}
+
+void bake(Session& session, const Options& options) {
+  RecipeSource source = openRecipe(options.input);
+  for (const std::string& assignment : options.assignments) setByAssignment(source.recipe, assignment);
+  if (session.seed) source.recipe.transfer.seed = *session.seed;
+  BakeOptions bakeOptions;
+  bakeOptions.output = options.output.empty() ? source.project : std::filesystem::path(options.output);
+  if (bakeOptions.output.empty()) throw UsageError("no output is named", "-o", "add for example -o out.prt");
+  bakeOptions.checkpointSeconds = options.checkpointSeconds;
+  bakeOptions.stages = options.stages;
+  const BakeSummary summary = bakeProject(source, bakeOptions, session.job());
+  tell(session, summary);
+  session.result(toJson(summary));
+}
+
+}  // namespace
+
+void addBake(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("bake", "Bake a mesh, a recipe or a project; goes on where an earlier bake stopped");
+  command->add_option("INPUT", options->input, "Mesh file, recipe (.json), project (.prt), scene:NAME or builtin:MESH")->required();
+  command->add_option("-o,--output", options->output, "Project to write (.prt); default: INPUT if it is one");
+  command->add_option("--set", options->assignments, "PATH=VALUE of a setting below; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_option("--stage", options->stages, "Only what this stage needs; may be repeated")
+      ->check(CLI::IsMember(stageNames()))
+      ->allow_extra_args(false);
+  command->add_option("--checkpoint", options->checkpointSeconds, "Least seconds between checkpoints")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command->footer(parameterHelp);
+  command->callback([options, &action] { action = [options](Session& s) { bake(s, *options); }; });
+}
+
+}  // namespace prt::cli

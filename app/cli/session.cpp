@@ -1,0 +1,30 @@
+#include "app/cli/session.h"
+
+#include "app/cli/progress_bar.h"
+#include "libprt/core/parallel.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+namespace prt::cli {
+
+void Session::start() {
+  setThreadCount(threads);
+  const bool watched = !quiet && isatty(STDERR_FILENO) != 0;
+  job_ = watched ? std::make_unique<Job>(ProgressBar(), 10) : std::make_unique<Job>();
+}
+
+void Session::say(const std::string& line) const {
+  if (!json && !quiet) fmt::print("{}\n", line);
+}
+
+void Session::warn(const std::string& line) const {
+  if (!quiet && logLevel != "error" && logLevel != "off") fmt::print(stderr, "prt: warning: {}\n", line);
+}
+
+void Session::result(const nlohmann::json& object) const {
+  if (json) fmt::print("{}\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace prt::cli

@@ -1,0 +1,114 @@
+#include "libprt/project/bake.h"
+
+#include "libprt/core/error.h"
+#include "libprt/project/products.h"
+#include "libprt/project/project_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <system_error>
+
+namespace prt {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+bool sameFile(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+/// Times the stages and passes everything on.
+class Timer : public PipelineListener {
+ public:
+  explicit Timer(PipelineListener* next) : next_(next) {}
+
+  void stageBegun(const Stage& stage) override {
+    begun_ = Clock::now();
+    if (next_) next_->stageBegun(stage);
+  }
+  void stageDone(const Stage& stage, const ProductState& state, bool made) override {
+    const double seconds = made ? std::chrono::duration<double>(Clock::now() - begun_).count() : 0;
+    times.push_back({stage.name, state.key, made, seconds});
+    if (next_) next_->stageDone(stage, state, made);
+  }
+  void preview(const Stage& stage, const ProductState& state) override {
+    if (next_) next_->preview(stage, state);
+  }
+  bool wantsPreviews() const override { return next_ && next_->wantsPreviews(); }
+
+  std::vector<BakeSummary::StageTime> times;
+
+ private:
+  PipelineListener* next_;
+  Clock::time_point begun_;
+};
+
+std::vector<std::string> storedStages() {
+  std::vector<std::string> names;
+  for (const Stage& stage : stages())
+    if (stage.stored) names.push_back(stage.name);
+  return names;
+}
+
+std::unique_ptr<ProjectFile> openOutput(const RecipeSource& source, const fs::path& output) {
+  std::error_code error;
+  if (!fs::is_directory(folderOf(output), error))
+    throw FileError("its folder does not exist", output.string(), "make the folder first");
+  auto project = ProjectFile::openForWork(output);
+  if (!source.project.empty() && !sameFile(source.project, output)) project->importFrom(*ProjectFile::open(source.project));
+  return project;
+}
+
+std::vector<BakeSummary::Object> describeObjects(const Recipe& recipe, const MeshProduct& meshes) {
+  std::vector<BakeSummary::Object> objects;
+  for (std::size_t i = 0; i < meshes.meshes.size(); ++i)
+    objects.push_back({recipe.objects[i].name, meshes.meshes[i]->vertexCount(), meshes.meshes[i]->triangleCount(), meshes.repairText(i)});
+  return objects;
+}
+
+}  // namespace
+
+BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, Job& job, PipelineListener* listener) {
+  const auto project = openOutput(source, options.output);
+  try {
+    BakeSummary summary;
+    summary.file = options.output;
+    summary.resumed = project->resumed();
+    Recipe recipe = source.recipe;
+    rebasePaths(recipe, source.folder, folderOf(options.output));
+    const bool sameRecipe = recipe == project->recipe();
+    project->setRecipe(recipe);
+    Pipeline pipeline(project.get(), {folderOf(options.output), options.checkpointSeconds});
+    Timer timer(listener);
+    const Products products = pipeline.run(recipe, options.stages.empty() ? storedStages() : options.stages, job, &timer);
+    if (project->hasNewWork() || !sameRecipe || !project->saved()) {
+      project->keepOnly(pipeline.liveKeys(recipe));
+      project->save();
+    } else {
+      project->discardWork();
+    }
+    summary.stages = timer.times;
+    summary.bytes = project->bytes();
+    if (const auto meshes = products.get<MeshProduct>("mesh")) summary.objects = describeObjects(recipe, *meshes);
+    return summary;
+  } catch (...) {
+    if (!project->hasNewWork()) project->discardWork();
+    throw;
+  }
+}
+
+nlohmann::json toJson(const BakeSummary& s) {
+  nlohmann::json objects = nlohmann::json::array(), stageList = nlohmann::json::array();
+  for (const BakeSummary::Object& o : s.objects)
+    objects.push_back({{"name", o.name}, {"vertices", o.vertices}, {"triangles", o.triangles}, {"repair", o.repair}});
+  for (const BakeSummary::StageTime& t : s.stages)
+    stageList.push_back({{"name", t.name}, {"key", t.key}, {"made", t.made}, {"seconds", t.seconds}});
+  return {{"file", s.file.string()}, {"bytes", s.bytes}, {"resumed", s.resumed}, {"objects", objects}, {"stages", stageList}};
+}
+
+}  // namespace prt

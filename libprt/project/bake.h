@@ -1,0 +1,50 @@
+#pragma once
+// A whole bake, as the command line and the studio run it: recipe in, saved project out.
+
+#include "libprt/project/pipeline.h"
+#include "libprt/project/scenes.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+struct BakeOptions {
+  std::filesystem::path output;      ///< the project; made, or gone on with
+  std::vector<std::string> stages;   ///< what to make; empty = everything
+  double checkpointSeconds = 5;      ///< see Pipeline::Options
+};
+
+/// What a bake did, for people and programs.
+struct BakeSummary {
+  struct Object {
+    std::string name;
+    std::size_t vertices = 0, triangles = 0;
+    std::string repair;  ///< what was mended, in words
+  };
+  struct StageTime {
+    std::string name, key;
+    bool made = false;  ///< false: it was in the project
+    double seconds = 0;
+  };
+
+  std::filesystem::path file;
+  std::int64_t bytes = 0;
+  bool resumed = false;          ///< work of an earlier bake was gone on with
+  std::vector<Object> objects;
+  std::vector<StageTime> stages;
+  std::string transfer;          ///< form, functions, rays, bounces, size, in words
+  std::string floor;             ///< errors to expect, in words; empty when not asked for
+};
+
+nlohmann::json toJson(const BakeSummary& summary);
+
+/// Bakes what is missing and saves. Throws FileError before any work when the output cannot be written;
+/// Cancelled leaves the saved project as it was, and the work beside it for the next time.
+BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, Job& job,
+                        PipelineListener* listener = nullptr);
+
+}  // namespace prt
