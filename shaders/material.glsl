@@ -1,5 +1,5 @@
 struct Material {
   vec4 albedo;    // w: 1 when back faces reflect too
-  vec4 specular;  // w: Phong exponent
+  vec4 specular;  // w: which table of the responses, -1 when not glossy
 };
 layout(std430, binding = 0) readonly buffer Materials { Material materials[]; };

@@ -66,8 +66,9 @@ Buffer Buffer::create() {
   return Buffer(id);
 }
 
-void Buffer::uploadBytes(const void* data, std::size_t bytes) {
-  glNamedBufferData(id_, GLsizeiptr(bytes), data, GL_DYNAMIC_DRAW);
+void Buffer::uploadBytes(const void* data, std::size_t bytes, std::size_t spare) {
+  glNamedBufferData(id_, GLsizeiptr(bytes + spare), nullptr, GL_DYNAMIC_DRAW);
+  glNamedBufferSubData(id_, 0, GLsizeiptr(bytes), data);
   bytes_ = bytes;
 }
 

@@ -49,9 +49,10 @@ class Buffer : public detail::Handle<detail::deleteBuffer> {
   static Buffer create();
 
   /// Replaces the contents. What the GPU still reads is left alone (the driver renames the storage).
+  /// `spare`: bytes of no meaning behind them, for shaders that read in groups.
   template <class T>
-  void upload(std::span<const T> values) {
-    uploadBytes(values.data(), values.size_bytes());
+  void upload(std::span<const T> values, std::size_t spare = 0) {
+    uploadBytes(values.data(), values.size_bytes(), spare);
   }
   std::size_t bytes() const { return bytes_; }
   /// Makes the buffer readable by shaders as storage block `binding`.
@@ -59,7 +60,7 @@ class Buffer : public detail::Handle<detail::deleteBuffer> {
 
  private:
   using Handle::Handle;
-  void uploadBytes(const void* data, std::size_t bytes);
+  void uploadBytes(const void* data, std::size_t bytes, std::size_t spare);
   std::size_t bytes_ = 0;
 };
 

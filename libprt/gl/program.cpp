@@ -20,15 +20,21 @@ const ShaderSource& embedded(const std::string& name) {
   return *found;
 }
 
+// The "#line" that follows each version line keeps the numbering.
+std::string withPrelude(std::string text, const std::string& prelude) {
+  return text.insert(text.find('\n') + 1, prelude);
+}
+
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // A compiled shader object, deleted with the scope; a linked program keeps what it needs.
 class Shader {
  public:
-  explicit Shader(const ShaderSource& source)
+  Shader(const ShaderSource& source, const std::string& prelude)
       : id_(glCreateShader(source.name.ends_with(".vert") ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER)) {
-    const char* text = source.text.c_str();
-    glShaderSource(id_, 1, &text, nullptr);
+    const std::string text = withPrelude(source.text, prelude);
+    const char* pointer = text.c_str();
+    glShaderSource(id_, 1, &pointer, nullptr);
     glCompileShader(id_);
     GLint compiled = 0;
     glGetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
@@ -68,12 +74,12 @@ std::string readableLog(const std::string& log, const std::vector<std::string>& 
   return out;
 }
 
-Program Program::fromLibrary(const std::string& vertex, const std::string& fragment) {
-  return fromSources(embedded(vertex), embedded(fragment));
+Program Program::fromLibrary(const std::string& vertex, const std::string& fragment, const std::string& prelude) {
+  return fromSources(embedded(vertex), embedded(fragment), prelude);
 }
 
-Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fragment) {
-  const Shader vertexShader(vertex), fragmentShader(fragment);
+Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& prelude) {
+  const Shader vertexShader(vertex, prelude), fragmentShader(fragment, prelude);
   Program program(glCreateProgram());
   glAttachShader(program.id_, vertexShader.id());
   glAttachShader(program.id_, fragmentShader.id());
@@ -109,6 +115,9 @@ void Program::set(const char* name, const Mat3& value) {
 }
 void Program::set(const char* name, const Mat4& value) {
   glProgramUniformMatrix4fv(id_, location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, std::span<const Vec2> values) {
+  glProgramUniform2fv(id_, location(name), GLsizei(values.size()), glm::value_ptr(values.front()));
 }
 void Program::set(const char* name, std::span<const Vec3> values) {
   glProgramUniform3fv(id_, location(name), GLsizei(values.size()), glm::value_ptr(values.front()));

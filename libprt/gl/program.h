@@ -25,10 +25,10 @@ std::string readableLog(const std::string& log, const std::vector<std::string>& 
 class Program : public detail::Handle<detail::deleteProgram> {
  public:
   Program() = default;
-  /// Compiles and links a vertex and a fragment shader of the library, by name. Throws ResourceError
-  /// that names file and line when the driver refuses.
-  static Program fromLibrary(const std::string& vertex, const std::string& fragment);
-  static Program fromSources(const ShaderSource& vertex, const ShaderSource& fragment);
+  /// Compiles and links a vertex and a fragment shader of the library, by name, with `prelude` in front of
+  /// both, behind their version. Throws ResourceError that names file and line when the driver refuses.
+  static Program fromLibrary(const std::string& vertex, const std::string& fragment, const std::string& prelude = {});
+  static Program fromSources(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& prelude = {});
 
   void use() const;
   /// Uniforms by name; one that the compiler dropped is ignored.
@@ -38,6 +38,7 @@ class Program : public detail::Handle<detail::deleteProgram> {
   void set(const char* name, const Vec3& value);
   void set(const char* name, const Mat3& value);
   void set(const char* name, const Mat4& value);
+  void set(const char* name, std::span<const Vec2> values);
   void set(const char* name, std::span<const Vec3> values);
 
  private:

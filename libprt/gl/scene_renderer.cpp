@@ -1,8 +1,13 @@
 #include "libprt/gl/scene_renderer.h"
 
 #include "libprt/core/error.h"
+#include "libprt/gl/sh_glsl.h"
+#include "libprt/light/resample.h"
+#include "libprt/material/glossy_response.h"
+#include "libprt/transport/sample_set.h"
 
 #include <epoxy/gl.h>
+#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -11,8 +16,12 @@ namespace prt::gl {
 
 namespace {
 
-constexpr unsigned kMaterialBinding = 0;
+constexpr unsigned kMaterialBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kRadianceBinding = 3,
+                   kBehindBinding = 4, kResponseBinding = 5;
 constexpr int kEnvironmentUnit = 0, kManySamplesUnit = 1, kOneSampleUnit = 2;
+constexpr int kResponseRows = 512;  // view angles in a table of responses
+constexpr int kMaxBands = 10;
+constexpr int kLatLongWidth = 2048;  // of environments that come in another mapping
 
 // As shaders/material.glsl has it.
 struct GpuMaterial {
@@ -29,6 +38,38 @@ Vec2 depthRange(const Camera& camera, const Box3& box) {
   return {std::max(middle - 1.01f * radius, 1e-3f * radius), farPlane};
 }
 
+void expectSamples(std::size_t given, std::size_t wanted) {
+  if (given == wanted) return;
+  throw ValueError("light of " + std::to_string(given) + " values for a scene that takes " + std::to_string(wanted),
+                   "GL renderer", "set the scene first");
+}
+
+// View angle of a table's row; denser towards the horizon, as response.glsl looks them up.
+float responseAngle(int row) {
+  const float away = 1 - float(row) / float(kResponseRows - 1);
+  return 0.5f * kPiF * (1 - away * away);
+}
+
+// One table as shaders/response.glsl reads it.
+void appendResponse(const GlossyResponse& response, std::vector<std::uint32_t>& tables) {
+  const int bands = response.bands();
+  std::vector<float> weights(std::size_t(shCount(bands)));
+  for (int row = 0; row < kResponseRows; ++row) {
+    response.weightsAt(responseAngle(row), weights);
+    const auto weight = [&](int lobe, int l) { return l < bands ? weights[std::size_t(l * bands + lobe)] : 0.0f; };
+    for (int lobe = 0; lobe < bands; ++lobe)
+      for (int l = 0; l < bands; l += 2) tables.push_back(glm::packHalf2x16(Vec2(weight(lobe, l), weight(lobe, l + 1))));
+  }
+}
+
+// Whether the coefficients can be handed from the vertex to the fragment shader, beside position, normal
+// and object.
+bool fitsBetweenStages(int bands) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &most);
+  return 4 * ((3 * shCount(bands) + 3) / 4 + 3) <= most;
+}
+
 int supportedSamples(int wanted) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
@@ -38,60 +79,125 @@ int supportedSamples(int wanted) {
 }  // namespace
 
 SceneRenderer::SceneRenderer()
-    : meshProgram_(Program::fromLibrary("mesh.vert", "mesh.frag")),
+    : irradianceProgram_(Program::fromLibrary("mesh_irradiance.vert", "mesh_irradiance.frag")),
       backgroundProgram_(Program::fromLibrary("fullscreen.vert", "background.frag")),
       toneProgram_(Program::fromLibrary("fullscreen.vert", "tone.frag")),
       meshArray_(VertexArray::create()),
-      emptyArray_(VertexArray::create()),
-      positions_(Buffer::create()),
-      normals_(Buffer::create()),
-      irradiance_(Buffer::create()),
-      objects_(Buffer::create()),
-      indices_(Buffer::create()),
-      materials_(Buffer::create()) {
+      emptyArray_(VertexArray::create()) {
+  for (Buffer* buffer : {&positions_, &normals_, &irradiance_, &irradianceBehind_, &objects_, &indices_,
+                         &materialBuffer_, &radianceBuffer_, &backSamples_, &responses_})
+    *buffer = Buffer::create();
+  radianceBuffer_.upload(std::span<const Rgb>(), sizeof(Vec4));  // bound even where the shader does not read it
   backgroundProgram_.set("environment", kEnvironmentUnit);
   toneProgram_.set("manySamples", kManySamplesUnit);
   toneProgram_.set("oneSample", kOneSampleUnit);
+  // The default number of bands; others are compiled when light in them is set.
+  for (const Light light : {Light::Interpolated, Light::Fetched, Light::Everywhere}) radianceProgram(light, bands_);
   checkErrors("start of the GL renderer");
 }
 
-void SceneRenderer::setScene(const Scene& scene) {
+void SceneRenderer::setScene(const Scene& scene, std::span<const std::uint32_t> back) {
   const TriMesh& mesh = scene.mesh;
-  vertexCount_ = int(mesh.vertexCount());
+  vertexCount_ = sampleCount_ = mesh.vertexCount();
   indexCount_ = int(3 * mesh.triangleCount());
   bounds_ = mesh.bounds();
+  back_.assign(vertexCount_, kNone);
+  twoSided_ = !back.empty();
+  for (std::size_t v = 0; v < std::min(back.size(), vertexCount_); ++v) {
+    back_[v] = back[v];
+    if (back[v] != kNone) sampleCount_ = std::max(sampleCount_, std::size_t(back[v]) + 1);
+  }
   positions_.upload(std::span<const Vec3>(mesh.positions));
   normals_.upload(std::span<const Vec3>(mesh.normals));
   objects_.upload(std::span<const std::uint32_t>(scene.vertexObject));
   indices_.upload(std::span<const UVec3>(mesh.triangles));
-  setIrradiance(std::vector<Rgb>(mesh.vertexCount(), Rgb(0)));
+  backSamples_.upload(std::span<const std::uint32_t>(back_));
+  setIrradiance(std::vector<Rgb>(sampleCount_, Rgb(0)));
   setMaterials(scene.materials);
 
   meshArray_.floats(0, positions_, 3);
   meshArray_.floats(1, normals_, 3);
   meshArray_.floats(2, irradiance_, 3);
-  meshArray_.integers(3, objects_);
+  meshArray_.floats(3, irradianceBehind_, 3);
+  meshArray_.integers(4, objects_);
   meshArray_.indices(indices_);
   checkErrors("upload of the scene");
 }
 
 void SceneRenderer::setMaterials(std::span<const Material> materials) {
-  std::vector<GpuMaterial> packed;
-  for (const Material& m : materials)
-    packed.push_back({Vec4(m.albedo, m.twoSided ? 1 : 0), Vec4(m.glossy() ? m.specular : Rgb(0), m.exponent)});
-  materials_.upload(std::span<const GpuMaterial>(packed));
+  materials_.assign(materials.begin(), materials.end());
+  uploadResponses();
 }
 
 void SceneRenderer::setIrradiance(std::span<const Rgb> irradiance) {
-  if (int(irradiance.size()) != vertexCount_)
-    throw ValueError("irradiance of " + std::to_string(irradiance.size()) + " vertices for a mesh of " +
-                         std::to_string(vertexCount_), "GL renderer", "set the scene first");
-  irradiance_.upload(irradiance);
+  expectSamples(irradiance.size(), sampleCount_);
+  std::vector<Rgb> behind(vertexCount_, Rgb(0));
+  for (std::size_t v = 0; v < vertexCount_; ++v)
+    if (back_[v] != kNone) behind[v] = irradiance[back_[v]];
+  irradiance_.upload(irradiance.first(vertexCount_));
+  irradianceBehind_.upload(std::span<const Rgb>(behind));
+  light_ = Light::Irradiance;
 }
 
-void SceneRenderer::setEnvironment(const Image& latLong) {
-  environment_ = Texture::fromImage(latLong, Wrap::RepeatX, false);
+void SceneRenderer::setRadiance(int bands, std::span<const Rgb> coefficients) {
+  expectSamples(coefficients.size(), sampleCount_ * std::size_t(shCount(bands)));
+  useRadiance(!twoSided_ && fitsBetweenStages(bands) ? Light::Interpolated : Light::Fetched, bands);
+  radianceBuffer_.upload(coefficients, sizeof(Vec4));
+}
+
+void SceneRenderer::setLight(const ShRgb& light) {
+  useRadiance(Light::Everywhere, light.bands);
+  radianceProgram(light_, bands_).set("light", std::span<const Vec3>(light.c));
+}
+
+void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
+  const bool latLong = map.report().mapping == EnvironmentMapping::LatLong;
+  environment_ = Texture::fromImage(
+      latLong ? map.pixels() : toLatLong(map, kLatLongWidth, kLatLongWidth / 2).pixels(), Wrap::RepeatX, false);
   checkErrors("upload of the environment");
+}
+
+void SceneRenderer::useRadiance(Light light, int bands) {
+  if (bands < 1 || bands > kMaxBands)
+    throw ValueError(std::to_string(bands) + " bands", "GL renderer", "use 1 to " + std::to_string(kMaxBands) + " bands");
+  radianceProgram(light, bands);
+  light_ = light;
+  if (bands == bands_) return;
+  bands_ = bands;
+  uploadResponses();
+}
+
+Program& SceneRenderer::radianceProgram(Light light, int bands) {
+  Program& program = radiancePrograms_[{light, bands}];
+  if (program) return program;
+  std::string prelude = shGlsl(bands) + "#define RESPONSE_ROWS " + std::to_string(kResponseRows) + "\n";
+  if (light == Light::Interpolated) prelude += "#define INTERPOLATED\n";
+  if (light == Light::Everywhere) prelude += "#define EVERYWHERE\n";
+  program = Program::fromLibrary("mesh_radiance.vert", "mesh_radiance.frag", prelude);
+  return program;
+}
+
+// Materials, and for the glossy ones a table of responses each; equal exponents share one.
+void SceneRenderer::uploadResponses() {
+  std::vector<GpuMaterial> packed;
+  std::vector<float> exponents;
+  std::vector<std::uint32_t> tables;
+  for (const Material& m : materials_) {
+    int table = -1;
+    if (m.glossy()) {
+      table = int(std::find(exponents.begin(), exponents.end(), m.exponent) - exponents.begin());
+      if (table == int(exponents.size())) {
+        exponents.push_back(m.exponent);
+        const GlossyResponse response(m.exponent, bands_);
+        lobes_.assign(response.lobes().begin(), response.lobes().end());
+        appendResponse(response, tables);
+      }
+    }
+    packed.push_back({Vec4(m.albedo, m.twoSided ? 1 : 0), Vec4(m.specular, float(table))});
+  }
+  if (tables.empty()) tables.push_back(0);  // a buffer without contents cannot be bound
+  materialBuffer_.upload(std::span<const GpuMaterial>(packed));
+  responses_.upload(std::span<const std::uint32_t>(tables));
 }
 
 void SceneRenderer::draw(const Picture& picture, unsigned framebuffer) {
@@ -102,7 +208,8 @@ void SceneRenderer::draw(const Picture& picture, unsigned framebuffer) {
   glViewport(0, 0, picture.width, picture.height);
   radiance_.colour().bind(samples > 1 ? kManySamplesUnit : kOneSampleUnit);
   toneProgram_.set("samples", samples);
-  toneProgram_.set("exposure", picture.exposure);
+  toneProgram_.set("exposure", picture.tone.exposure);
+  toneProgram_.set("filmic", picture.tone.curve == ToneCurve::Filmic ? 1 : 0);
   toneProgram_.use();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
@@ -154,9 +261,19 @@ void SceneRenderer::drawRadiance(const Picture& picture, PixelFormat format, int
 void SceneRenderer::drawMesh(const Picture& picture) {
   const Vec2 depth = depthRange(picture.camera, bounds_);
   const float aspect = float(picture.width) / float(picture.height);
-  meshProgram_.set("worldToClip", picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
-  meshProgram_.use();
-  materials_.bindStorage(kMaterialBinding);
+  Program& program = light_ == Light::Irradiance ? irradianceProgram_ : radianceProgram(light_, bands_);
+  program.set("worldToClip", picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
+  materialBuffer_.bindStorage(kMaterialBinding);
+  if (light_ != Light::Irradiance) {
+    program.set("eye", picture.camera.eye);
+    if (!lobes_.empty()) program.set("lobes", std::span<const Vec2>(lobes_));
+    indices_.bindStorage(kCornerBinding);
+    positions_.bindStorage(kPositionBinding);
+    radianceBuffer_.bindStorage(kRadianceBinding);
+    backSamples_.bindStorage(kBehindBinding);
+    responses_.bindStorage(kResponseBinding);
+  }
+  program.use();
   glBindVertexArray(meshArray_.id());
   glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
 }
@@ -178,7 +295,8 @@ void SceneRenderer::drawBackground(const Picture& picture) {
   backgroundProgram_.set("right", onPlane(1, 1) - corner);
   backgroundProgram_.set("up", onPlane(0, 0) - corner);
   backgroundProgram_.set("rotation", picture.environmentRotation);
-  backgroundProgram_.set("alpha", 1.0f);
+  backgroundProgram_.set("intensity", picture.environmentIntensity);
+  backgroundProgram_.set("smoothTexels", picture.smoothEnvironment ? 1 : 0);
   backgroundProgram_.use();
   glBindVertexArray(emptyArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

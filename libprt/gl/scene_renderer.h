@@ -3,13 +3,20 @@
 // writes. The CPU renderer in shade/ makes the same picture; the tests compare the two.
 // Every function needs the context that was current when the renderer was made.
 
+#include "libprt/basis/sh.h"
 #include "libprt/core/image.h"
 #include "libprt/gl/objects.h"
 #include "libprt/gl/program.h"
+#include "libprt/light/environment.h"
 #include "libprt/shade/camera.h"
+#include "libprt/shade/tonemap.h"
 #include "libprt/transport/scene.h"
 
+#include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace prt::gl {
 
@@ -18,7 +25,7 @@ enum class Background {
   Environment  ///< the environment map, alpha 1
 };
 
-/// What one picture is of. The light comes with setIrradiance().
+/// What one picture is of.
 struct Picture {
   Camera camera;
   int width = 0;
@@ -26,7 +33,9 @@ struct Picture {
   int samples = 4;  ///< per pixel; what the driver cannot do is lowered
   Background background = Background::Environment;
   float environmentRotation = 0;  ///< radians, counter-clockwise seen from +Y
-  float exposure = 0;             ///< stops
+  float environmentIntensity = 1;
+  bool smoothEnvironment = false;  ///< between texels; otherwise piecewise constant, as the map lights
+  ToneSettings tone = {};          ///< of draw() and renderToned()
 };
 
 class SceneRenderer {
@@ -34,14 +43,24 @@ class SceneRenderer {
   /// Compiles every shader. Throws ResourceError when the driver refuses.
   SceneRenderer();
 
-  /// The geometry and its materials. Forgets the light.
-  void setScene(const Scene& scene);
+  /// The geometry and its materials, without light. `back` as SampleSet::back: the samples of two-sided
+  /// vertices' other sides; empty when there are none.
+  void setScene(const Scene& scene, std::span<const std::uint32_t> back = {});
   /// Materials alone, [objects]: takes effect in the next picture.
   void setMaterials(std::span<const Material> materials);
-  /// Irradiance per vertex, [V]: every surface is drawn as albedo/pi * irradiance.
+
+  // The light, in the form that transfer has it; the last one given counts.
+
+  /// Irradiance per sample, [S]: every surface is drawn as albedo/pi * irradiance.
   void setIrradiance(std::span<const Rgb> irradiance);
-  /// The lat-long map behind the model, radiance as it lights (top row +Y, centre column -Z).
-  void setEnvironment(const Image& latLong);
+  /// Transferred radiance per sample, [S * bands^2], object frame: diffuse with the pixel's normal, and
+  /// glossy materials. 1 to 10 bands.
+  void setRadiance(int bands, std::span<const Rgb> coefficients);
+  /// The same light everywhere: no shadows. 1 to 10 bands.
+  void setLight(const ShRgb& light);
+
+  /// The map behind the model: lat-long as it is, other mappings resampled to one.
+  void setEnvironment(const EnvironmentMap& map);
 
   /// Draws into `framebuffer` (0 = the window), tone-mapped, over its whole width x height.
   void draw(const Picture& picture, unsigned framebuffer);
@@ -51,18 +70,31 @@ class SceneRenderer {
   Image renderToned(const Picture& picture);
 
  private:
+  enum class Light { Irradiance, Interpolated, Fetched, Everywhere };
+
   void drawRadiance(const Picture& picture, PixelFormat format, int samples);
   void drawMesh(const Picture& picture);
   void drawBackground(const Picture& picture);
+  void useRadiance(Light light, int bands);
+  Program& radianceProgram(Light light, int bands);
+  void uploadResponses();
 
-  Program meshProgram_, backgroundProgram_, toneProgram_;
+  Program irradianceProgram_, backgroundProgram_, toneProgram_;
+  std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
   VertexArray meshArray_, emptyArray_;
-  Buffer positions_, normals_, irradiance_, objects_, indices_, materials_;
+  Buffer positions_, normals_, irradiance_, irradianceBehind_, objects_, indices_;
+  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_;
   Texture environment_;
   Framebuffer radiance_;
   PixelFormat radianceFormat_ = PixelFormat::Rgba16f;
+  std::vector<Material> materials_;
+  std::vector<std::uint32_t> back_;
+  std::vector<Vec2> lobes_;  // of the responses, see GlossyResponse
+  Light light_ = Light::Irradiance;
+  int bands_ = 5;  // of the radiance and the responses
+  bool twoSided_ = false;
   int indexCount_ = 0;
-  int vertexCount_ = 0;
+  std::size_t vertexCount_ = 0, sampleCount_ = 0;
   Box3 bounds_;
 };
 

@@ -132,6 +132,17 @@ GlossyResponse::GlossyResponse(float exponent, int bands) : exponent_(exponent),
   });
 }
 
+void GlossyResponse::weightsAt(float viewAngle, std::span<float> out) const {
+  const float position = tablePosition(viewAngle);
+  const int first = std::clamp(int(position) - 1, 0, kAngles - 4);
+  const std::array<float, 4> mix = cubicWeights(position - float(first));
+  const int functions = shCount(bands_);
+  const float* row = table_.data() + std::size_t(first) * std::size_t(functions);
+  for (int i = 0; i < functions; ++i)
+    out[std::size_t(i)] = mix[0] * row[i] + mix[1] * row[i + functions] +
+                              mix[2] * row[i + 2 * functions] + mix[3] * row[i + 3 * functions];
+}
+
 void GlossyResponse::evaluate(const Vec3& normal, const Vec3& view, std::span<float> out) const {
   // Frame of the viewing plane; straight from above any will do, as the response is round there.
   const float cosine = std::clamp(dot(normal, view), 0.0f, 1.0f);
@@ -139,19 +150,11 @@ void GlossyResponse::evaluate(const Vec3& normal, const Vec3& view, std::span<fl
   const float sine = length(flat);
   const Vec3 tangent = sine > 1e-6f ? flat / sine : frameFromNormal(normal).tangent;
 
-  // Lobe weights at this view angle.
-  const float position = tablePosition(std::atan2(sine, cosine));
-  const int first = std::clamp(int(position) - 1, 0, kAngles - 4);
-  const std::array<float, 4> mix = cubicWeights(position - float(first));
-  const int functions = shCount(bands_);
-  const float* row = table_.data() + std::size_t(first) * std::size_t(functions);
   std::array<float, kMaxFunctions> weights;
-  for (int i = 0; i < functions; ++i)
-    weights[std::size_t(i)] = mix[0] * row[i] + mix[1] * row[i + functions] +
-                              mix[2] * row[i + 2 * functions] + mix[3] * row[i + 3 * functions];
+  weightsAt(std::atan2(sine, cosine), weights);
 
   // Sum of turned zonal lobes.
-  std::fill_n(out.begin(), functions, 0.0f);
+  std::fill_n(out.begin(), shCount(bands_), 0.0f);
   std::array<float, kMaxFunctions> y;
   for (int j = 0; j < bands_; ++j) {
     const Vec2& lobe = lobes_[std::size_t(j)];

@@ -45,6 +45,12 @@ class GlossyResponse {
   /// shCount(bands) values, is then given in. Specular colour 1. A view below the horizon counts as on it.
   void evaluate(const Vec3& normal, const Vec3& view, std::span<float> out) const;
 
+  /// Sine and cosine of each lobe's angle to the normal, in the viewing plane towards the viewer, [bands].
+  std::span<const Vec2> lobes() const { return lobes_; }
+  /// Weight of lobe j in band l at a view angle (0 .. pi/2), out[l * bands + j]: for renderers that keep
+  /// tables of their own.
+  void weightsAt(float viewAngle, std::span<float> out) const;
+
  private:
   float exponent_;
   int bands_;

@@ -1,6 +1,7 @@
 #include "libprt/gl/program.h"
 
 #include "libprt/core/error.h"
+#include "libprt/gl/sh_glsl.h"
 #include "tests/gl/gl_test_support.h"
 
 #include <gmock/gmock.h>
@@ -25,17 +26,21 @@ TEST_F(ProgramTest, EveryFragmentShaderOfTheLibraryCompiles) {
   int count = 0;
   for (const ShaderSource& shader : embeddedShaders()) {
     if (!shader.name.ends_with(".frag")) continue;
-    const std::string vertex = shader.name == "mesh.frag" ? "mesh.vert" : "fullscreen.vert";
-    EXPECT_NO_THROW(Program::fromLibrary(vertex, shader.name)) << shader.name;
+    const std::string vertex = shader.name.starts_with("mesh") ? shader.name.substr(0, shader.name.size() - 5) + ".vert"
+                                                               : "fullscreen.vert";
+    for (const int bands : {1, 2, 5, 10})
+      for (const char* variant : {"", "#define EVERYWHERE\n"})
+        EXPECT_NO_THROW(Program::fromLibrary(vertex, shader.name, shGlsl(bands) + "#define RESPONSE_ROWS 512\n" + variant))
+            << shader.name << " with " << bands << " bands";
     ++count;
   }
-  EXPECT_GE(count, 3);
+  EXPECT_GE(count, 4);
 }
 
 TEST_F(ProgramTest, IncludesAreResolvedOnceAndLinesKeepTheirNumbers) {
-  const ShaderSource& shader = source("mesh.frag");
+  const ShaderSource& shader = source("mesh_irradiance.frag");
   EXPECT_EQ(shader.text.find("#include"), std::string::npos);
-  EXPECT_EQ(shader.files.front(), "mesh.frag");
+  EXPECT_EQ(shader.files.front(), "mesh_irradiance.frag");
   EXPECT_THAT(shader.files, testing::Contains("material.glsl"));
 
   // Every line of the embedded text is found at the place its #line directives claim.
@@ -58,16 +63,16 @@ TEST_F(ProgramTest, IncludesAreResolvedOnceAndLinesKeepTheirNumbers) {
 }
 
 TEST_F(ProgramTest, ACompileErrorNamesFileAndLine) {
-  ShaderSource broken = source("mesh.frag");
+  ShaderSource broken = source("mesh_irradiance.frag");
   const std::size_t at = broken.text.find("vec4 specular");
   ASSERT_NE(at, std::string::npos);
   broken.text.insert(at, "vec5 ");
   try {
-    Program::fromSources(source("mesh.vert"), broken);
+    Program::fromSources(source("mesh_irradiance.vert"), broken);
     FAIL() << "a broken shader compiled";
   } catch (const ResourceError& error) {
     EXPECT_THAT(error.problem(), StartsWith("material.glsl:3: "));
-    EXPECT_EQ(error.where(), "mesh.frag");
+    EXPECT_EQ(error.where(), "mesh_irradiance.frag");
   }
 }
 
