@@ -49,6 +49,7 @@ struct Recurrence {
   }
 };
 
+// Named in full where it is used: GCC 12 with sanitizers crashes on a constexpr reference to it.
 template <class T>
 constexpr Recurrence<T> kRecurrence{};
 
@@ -65,16 +66,17 @@ constexpr void unrolled(F&& body) {
 /// Straight-line code for N bands: no loop, no branch, coefficients as constants.
 template <int N, class T, class V, class Emit>
 inline void evaluateFixed(V x, V y, V z, V scale, Emit emit) {
-  constexpr const Recurrence<T>& r = kRecurrence<T>;
   V cosine = scale, sine = V{};
   unrolled<N>([&](auto order) {
     constexpr int m = order;
-    V q = V{} + r.start[m], before = V{};
+    V q = V{} + kRecurrence<T>.start[m], before = V{};
     unrolled<N - m>([&](auto step) {
       constexpr int l = m + step;
-      if constexpr (l == m + 1) before = std::exchange(q, z * (r.up[packed(l, m)] * r.start[m]));
+      if constexpr (l == m + 1)
+        before = std::exchange(q, z * (kRecurrence<T>.up[packed(l, m)] * kRecurrence<T>.start[m]));
       if constexpr (l > m + 1)
-        before = std::exchange(q, z * q * r.up[packed(l, m)] - before * r.back[packed(l, m)]);
+        before = std::exchange(
+            q, z * q * kRecurrence<T>.up[packed(l, m)] - before * kRecurrence<T>.back[packed(l, m)]);
       emit(shIndex(l, m), q * cosine);
       if constexpr (m > 0) emit(shIndex(l, -m), q * sine);
     });
@@ -87,11 +89,11 @@ inline void evaluateFixed(V x, V y, V z, V scale, Emit emit) {
 /// Any number of bands.
 template <class T, class V, class Emit>
 inline void evaluateAny(int bands, V x, V y, V z, V scale, Emit emit) {
-  constexpr const Recurrence<T>& r = kRecurrence<T>;
   V cosine = scale, sine = V{};
   for (int m = 0; m < bands; ++m) {
-    V q = V{} + r.start[m], before = V{};
-    for (int l = m;; before = std::exchange(q, z * q * r.up[packed(l, m)] - before * r.back[packed(l, m)])) {
+    V q = V{} + kRecurrence<T>.start[m], before = V{};
+    for (int l = m;; before = std::exchange(q, z * q * kRecurrence<T>.up[packed(l, m)] -
+                                                   before * kRecurrence<T>.back[packed(l, m)])) {
       emit(shIndex(l, m), q * cosine);
       if (m > 0) emit(shIndex(l, -m), q * sine);
       if (++l == bands) break;
