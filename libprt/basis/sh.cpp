@@ -63,23 +63,27 @@ constexpr void unrolled(F&& body) {
   (std::make_integer_sequence<int, N>{});
 }
 
+/// All functions of one order; `cosine` and `sine` hold sin^m(theta) cos(m phi) and sin^m(theta) sin(m phi).
+template <int N, int M, class T, class V, class Emit>
+inline void evaluateOrder(V z, V cosine, V sine, Emit& emit) {
+  constexpr T start = kRecurrence<T>.start[M];
+  V q = V{} + start, before = V{};
+  unrolled<N - M>([&](auto step) {
+    constexpr int l = M + step;
+    constexpr T up = kRecurrence<T>.up[packed(l, M)], back = kRecurrence<T>.back[packed(l, M)];
+    if constexpr (l == M + 1) before = std::exchange(q, z * (up * start));
+    if constexpr (l > M + 1) before = std::exchange(q, z * q * up - before * back);
+    emit(shIndex(l, M), q * cosine);
+    if constexpr (M > 0) emit(shIndex(l, -M), q * sine);
+  });
+}
+
 /// Straight-line code for N bands: no loop, no branch, coefficients as constants.
 template <int N, class T, class V, class Emit>
 inline void evaluateFixed(V x, V y, V z, V scale, Emit emit) {
   V cosine = scale, sine = V{};
   unrolled<N>([&](auto order) {
-    constexpr int m = order;
-    V q = V{} + kRecurrence<T>.start[m], before = V{};
-    unrolled<N - m>([&](auto step) {
-      constexpr int l = m + step;
-      if constexpr (l == m + 1)
-        before = std::exchange(q, z * (kRecurrence<T>.up[packed(l, m)] * kRecurrence<T>.start[m]));
-      if constexpr (l > m + 1)
-        before = std::exchange(
-            q, z * q * kRecurrence<T>.up[packed(l, m)] - before * kRecurrence<T>.back[packed(l, m)]);
-      emit(shIndex(l, m), q * cosine);
-      if constexpr (m > 0) emit(shIndex(l, -m), q * sine);
-    });
+    evaluateOrder<N, order, T>(z, cosine, sine, emit);
     const V c = x * cosine - y * sine;
     sine = x * sine + y * cosine;
     cosine = c;

@@ -53,6 +53,7 @@ void writeExr(const std::filesystem::path& path, const Image& image) {
   OIIO::ImageSpec spec = specOf(image, image.channels, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("DateTime", "");  // else OpenImageIO writes the time, and no two files are the same
   write("openexr", path, {spec, image.data.data()});
 }
 

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 namespace prt {
@@ -71,6 +72,8 @@ TEST(ImageIo, SameImageSameBytes) {
     EXPECT_EQ(readFile(folder / (std::string("a") + extension)),
               readFile(folder / (std::string("b") + extension)))
         << extension;
+    const auto in = OIIO::ImageInput::open((folder / (std::string("a") + extension)).string());
+    EXPECT_EQ(in->spec().get_string_attribute("DateTime"), "") << "the time would differ: " << extension;
   }
 }
 
@@ -250,7 +253,7 @@ TEST(ImageIo, DamagedFilesGiveAnImageOrAFileError) {
     const auto path = folder / (std::string("a") + extension);
     if (std::string(extension) != ".jpg") writeImage(path, gradient(24, 9, 3));
     const std::vector<std::byte> original = readFile(path);
-    for (std::uint32_t round = 0; round < 2000; ++round) {
+    for (std::uint32_t round = 0; round < 1000; ++round) {
       std::vector<std::byte> bytes = original;
       const int changes = 1 + int(hashBits(1, round) % 4);
       for (int c = 0; c < changes; ++c) {
