@@ -117,11 +117,11 @@ std::string_view ObjText::logicalLine() {
       position_ += pair ? 2 : 1;
     }
     ++nextLine_;
-    const bool continues = !line.empty() && line.back() == '\\' && position_ < text_.size();
+    const bool continues = !line.empty() && line.back() == '\\';
     if (!continues && joined_.empty()) return line;
     joined_ += continues ? line.substr(0, line.size() - 1) : line;
     joined_ += ' ';
-    if (!continues) return joined_;
+    if (!continues || position_ >= text_.size()) return joined_;
   }
 }
 

@@ -3,7 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/duplicates.h"
-#include "libprt/mesh/edges.h"
+#include "libprt/mesh/fans.h"
 #include "libprt/mesh/mesh_reader.h"
 #include "libprt/mesh/normals.h"
 #include "libprt/mesh/orient.h"
@@ -183,30 +183,11 @@ class Repair {
     }
   }
 
-  /// Gives every fan of triangles its own vertex. Fans are parted by edges of more or fewer than two
-  /// triangles and by edges along which two run in the same direction.
   void split() {
-    const MeshEdges edges(triangles_);
-    std::vector<std::uint32_t> cornerVertex;
-    for (const UVec3& t : triangles_) cornerVertex.insert(cornerVertex.end(), {t.x, t.y, t.z});
-    const auto joins = [&](const MeshEdge& edge) {
-      return edge.faceCount() == 2 && cornerVertex[edge.sides[0]] != cornerVertex[edge.sides[1]];
-    };
-    UnionFind fans = cornerFans(edges, cornerVertex, nextInTriangle, joins);
-    std::vector<std::uint32_t> firstFan(positions_.size(), kNoIndex), vertexOfFan(cornerVertex.size(), kNoIndex);
-    for (std::uint32_t c = 0; c < cornerVertex.size(); ++c) {
-      const std::uint32_t fan = fans.find(c), v = cornerVertex[c];
-      if (firstFan[v] == kNoIndex) firstFan[v] = fan;
-      if (vertexOfFan[fan] == kNoIndex) {
-        const bool isFirst = firstFan[v] == fan;
-        vertexOfFan[fan] = isFirst ? v : std::uint32_t(positions_.size());
-        if (!isFirst) {
-          positions_.push_back(positions_[v]);
-          ++report_.splitVertices;
-        }
-      }
-      triangles_[c / 3][int(c % 3)] = vertexOfFan[fan];
-    }
+    FanSplit fans = splitIntoFans(triangles_, positions_.size());
+    report_.splitVertices = fans.source.size() - positions_.size();
+    for (std::size_t v = positions_.size(); v < fans.source.size(); ++v) positions_.push_back(positions_[fans.source[v]]);
+    triangles_ = std::move(fans.triangles);
   }
 
   void normals() {
