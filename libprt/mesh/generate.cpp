@@ -94,7 +94,7 @@ TriMesh makePlane(const PlaneOptions& options) {
   requireRange("grading", options.grading, 0.0f, 0.95f);
   TriMesh mesh;
   appendGrid(mesh, options.columns, options.rows, [&](float s, float t) {
-    const float x = graded(2 * s - 1, options.grading), z = graded(1 - 2 * t, options.grading);
+    const float x = graded(s, options.grading), z = graded(-t, options.grading);
     const Vec2 uv(0.5f * (x + 1), 0.5f * (1 - z));
     return GridPoint{{0.5f * options.width * x, 0, 0.5f * options.depth * z}, {0, 1, 0}, uv};
   });
@@ -121,8 +121,8 @@ TriMesh makeBox(const BoxOptions& options) {
   for (const Face& face : faces) {
     const Vec3 normal = cross(face.right, face.up);
     appendGrid(mesh, options.cells, options.cells, [&](float s, float t) {
-      const Vec3 unit = normal + (2 * s - 1) * face.right + (2 * t - 1) * face.up;
-      const Vec2 uv((face.column + s) / 4, (face.row + t) / 3);
+      const Vec3 unit = normal + s * face.right + t * face.up;
+      const Vec2 uv((face.column + 0.5f * (s + 1)) / 4, (face.row + 0.5f * (t + 1)) / 3);
       return GridPoint{0.5f * options.size * unit, normal, uv};
     });
   }

@@ -16,7 +16,7 @@ void appendGrid(TriMesh& mesh, int columns, int rows, const std::function<GridPo
   const auto first = std::uint32_t(mesh.positions.size());
   for (int row = 0; row <= rows; ++row)
     for (int column = 0; column <= columns; ++column) {
-      const GridPoint p = point(float(column) / columns, float(row) / rows);
+      const GridPoint p = point(float(2 * column - columns) / columns, float(2 * row - rows) / rows);
       mesh.positions.push_back(p.position);
       mesh.normals.push_back(p.normal);
       mesh.uv.push_back(p.uv);

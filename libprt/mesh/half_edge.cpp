@@ -6,8 +6,6 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
-#include <algorithm>
-
 namespace prt {
 
 namespace {
@@ -29,6 +27,19 @@ struct HalfEdgeMesh::Kernel : OpenMesh::TriMesh_ArrayKernelT<BareTraits> {
     auto h = halfedge_handle(OpenMesh::FaceHandle(int(triangle)));
     while (std::uint32_t(from_vertex_handle(h).idx()) != corners[triangle][side]) h = next_halfedge_handle(h);
     return h;
+  }
+
+  /// Half-edges out of a vertex, counter-clockwise; at a boundary the one without a triangle on its left,
+  /// which OpenMesh keeps as the vertex's own, comes last.
+  std::vector<OpenMesh::HalfedgeHandle> spokes(std::uint32_t vertex) const {
+    std::vector<OpenMesh::HalfedgeHandle> around;
+    const auto own = halfedge_handle(OpenMesh::VertexHandle(static_cast<int>(vertex)));
+    auto h = own;
+    do {
+      h = opposite_halfedge_handle(prev_halfedge_handle(h));
+      around.push_back(h);
+    } while (h != own);
+    return around;
   }
 };
 
@@ -60,11 +71,10 @@ HalfEdgeMesh::HalfEdgeMesh(const TriMesh& mesh, Job& job) : kernel_(std::make_un
   for (std::size_t f = 0; f < kernel_->corners.size(); ++f) {
     if (f % 4096 == 0) job.checkCancelled();
     const UVec3& t = kernel_->corners[f];
-    const auto face = kernel_->add_face(OpenMesh::VertexHandle(int(t.x)), OpenMesh::VertexHandle(int(t.y)),
-                                        OpenMesh::VertexHandle(int(t.z)));
-    if (!face.is_valid())
+    if (t.x == t.y || t.y == t.z || t.z == t.x)  // which OpenMesh would end the process for
       throw GeometryError("triangle " + std::to_string(f) + " has fewer than three different positions", "half-edges",
                           "repair the mesh first");
+    kernel_->add_face(OpenMesh::VertexHandle(int(t.x)), OpenMesh::VertexHandle(int(t.y)), OpenMesh::VertexHandle(int(t.z)));
   }
 }
 
@@ -82,17 +92,14 @@ std::uint32_t HalfEdgeMesh::vertexOf(std::uint32_t triangle, int corner) const {
 
 std::vector<std::uint32_t> HalfEdgeMesh::oneRing(std::uint32_t vertex) const {
   std::vector<std::uint32_t> ring;
-  const OpenMesh::VertexHandle v(static_cast<int>(vertex));
-  for (auto it = kernel_->cvv_ccwbegin(v); it != kernel_->cvv_ccwend(v); ++it) ring.push_back(std::uint32_t(it->idx()));
-  // OpenMesh's outgoing half-edge at a boundary is the boundary one, whose end is the last in this order.
-  if (isBoundary(vertex)) std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+  for (const auto h : kernel_->spokes(vertex)) ring.push_back(std::uint32_t(kernel_->to_vertex_handle(h).idx()));
   return ring;
 }
 
 std::vector<std::uint32_t> HalfEdgeMesh::fan(std::uint32_t vertex) const {
   std::vector<std::uint32_t> triangles;
-  const OpenMesh::VertexHandle v(static_cast<int>(vertex));
-  for (auto it = kernel_->cvf_ccwbegin(v); it != kernel_->cvf_ccwend(v); ++it) triangles.push_back(std::uint32_t(it->idx()));
+  for (const auto h : kernel_->spokes(vertex))
+    if (!kernel_->is_boundary(h)) triangles.push_back(std::uint32_t(kernel_->face_handle(h).idx()));
   return triangles;
 }
 
