@@ -14,7 +14,7 @@ namespace prt {
 struct MeshWriteOptions {
   /// [V] linear colours, one per vertex; empty = none. glTF keeps them linear floats; OBJ, PLY and OFF hold
   /// them sRGB-encoded, clamped to 0..1, as other programs expect; STL has none.
-  std::span<const Rgb> colors;
+  std::span<const Rgb> colors{};
   std::string name = "mesh";  ///< of the object, where the format has names
   Rgb baseColor{0.8f};        ///< linear; glTF's material when there are no colours
   /// glTF only: the colours are light that leaves the surface, not to be lit again (KHR_materials_unlit).

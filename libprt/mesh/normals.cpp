@@ -48,6 +48,7 @@ class GroupNormals {
 Vec3 normalised(const Vec3& v) {
   const DVec3 d(v);
   const double size = length(d);
+  if (std::abs(size - 1) < 1e-6) return v;  // bit for bit
   return size > 1e-12 && size < 1e12 ? Vec3(d / size) : Vec3(0);
 }
 

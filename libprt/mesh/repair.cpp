@@ -205,21 +205,26 @@ class Repair {
     report_.computedNormals = 3 * triangles_.size() - cornerNormals_.kept;
   }
 
-  /// Vertices in the order of the file, one for each position and normal.
+  /// One vertex for each position and normal, in the order of the file's vertices.
   RepairedMesh assemble() {
     RepairedMesh result;
     TriMesh& mesh = result.mesh;
     DenseIndex<4> variants(positions_.size());
-    std::vector<std::uint32_t> variantOfCorner;
+    std::vector<std::uint32_t> variantOfCorner, fileVertex;
     for (std::size_t c = 0; c < 3 * triangles_.size(); ++c) {
       const Vec3& n = cornerNormals_.normals[c];
-      variantOfCorner.push_back(variants.insert({triangles_[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)}));
+      const std::uint32_t original = soup_.cornerVertex[corners_[c / 3][int(c % 3)]];
+      const std::uint32_t variant = variants.insert({triangles_[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)});
+      if (variant == fileVertex.size()) fileVertex.push_back(original);
+      fileVertex[variant] = std::min(fileVertex[variant], original);
+      variantOfCorner.push_back(variant);
     }
-    const std::vector<std::uint32_t> vertexOfVariant = orderVertices(variants, mesh);
+    const std::vector<std::uint32_t> vertexOfVariant = orderVertices(variants, fileVertex, mesh);
     for (std::size_t f = 0; f < triangles_.size(); ++f)
       mesh.triangles.push_back({vertexOfVariant[variantOfCorner[3 * f]], vertexOfVariant[variantOfCorner[3 * f + 1]],
                                 vertexOfVariant[variantOfCorner[3 * f + 2]]});
     textureCoordinates(mesh);
+    countVertices(mesh.vertexCount());
     if (!soup_.faceMaterial.empty()) {
       for (std::uint32_t f : faceOf_) result.triangleMaterial.push_back(soup_.faceMaterial[f]);
       result.materials = soup_.materials;
@@ -227,36 +232,43 @@ class Repair {
     return result;
   }
 
-  /// Fills the mesh's vertices; returns the vertex of each variant.
-  std::vector<std::uint32_t> orderVertices(const DenseIndex<4>& variants, TriMesh& mesh) {
-    std::vector<std::uint32_t> start(positions_.size() + 1, 0);
-    for (std::uint32_t i = 0; i < variants.size(); ++i) ++start[variants.key(i)[0] + 1];
-    std::size_t used = 0;
-    for (std::size_t v = 0; v < positions_.size(); ++v) {
-      used += start[v + 1] > 0;
-      const bool isAlone = start[v + 1] == 0 && !options_.removeUnreferenced && keepsAlone(v);
-      alone_.push_back(isAlone);
-      start[v + 1] += start[v] + (isAlone ? 1 : 0);
-    }
+  /// Fills the mesh's vertices in the order of the file's vertices that they stem from; returns the vertex
+  /// of each variant.
+  std::vector<std::uint32_t> orderVertices(const DenseIndex<4>& variants, const std::vector<std::uint32_t>& fileVertex,
+                                           TriMesh& mesh) {
+    std::vector<std::uint32_t> start(soup_.positions.size() + 1, 0);
+    for (std::uint32_t v : fileVertex) ++start[v + 1];
+    alone_ = loneVertices();
+    for (std::size_t v = 0; v < soup_.positions.size(); ++v) start[v + 1] += start[v] + (alone_[v] ? 1 : 0);
     mesh.positions.resize(start.back());
     mesh.normals.assign(start.back(), Vec3(0, 1, 0));
-    for (std::size_t v = 0; v < positions_.size(); ++v)
-      if (alone_[v]) mesh.positions[start[v]] = positions_[v];
-    representative_.resize(mesh.vertexCount());
+    representative_.resize(start.back());
     std::iota(representative_.begin(), representative_.end(), 0u);
-    const std::vector<std::uint32_t> first = start;
-    std::vector<std::uint32_t> vertexOfVariant(variants.size());
+    for (std::size_t v = 0; v < alone_.size(); ++v)
+      if (alone_[v]) mesh.positions[start[v]++] = positions_[v];
+
+    std::vector<std::uint32_t> vertexOfVariant(variants.size()), firstAt(positions_.size(), kNoIndex);
+    std::size_t places = 0;
     for (std::uint32_t i = 0; i < variants.size(); ++i) {
-      const auto& key = variants.key(i);
-      const std::uint32_t vertex = start[key[0]]++;
-      vertexOfVariant[i] = vertex;
-      representative_[vertex] = first[key[0]];
-      mesh.positions[vertex] = positions_[key[0]];
-      mesh.normals[vertex] = Vec3(std::bit_cast<float>(key[1]), std::bit_cast<float>(key[2]), std::bit_cast<float>(key[3]));
+      const auto& [place, x, y, z] = variants.key(i);
+      const std::uint32_t vertex = vertexOfVariant[i] = start[fileVertex[i]]++;
+      mesh.positions[vertex] = positions_[place];
+      mesh.normals[vertex] = Vec3(std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z));
+      if (firstAt[place] == kNoIndex) firstAt[place] = vertex, ++places;
+      representative_[vertex] = firstAt[place];
     }
-    report_.creaseVertices = variants.size() - used;
-    countVertices(mesh.vertexCount());
+    report_.creaseVertices = variants.size() - places;
     return vertexOfVariant;
+  }
+
+  /// [V] finite vertices of no triangle that shall stay.
+  std::vector<bool> loneVertices() const {
+    std::vector<bool> alone(soup_.positions.size(), !options_.removeUnreferenced);
+    if (options_.removeUnreferenced) return alone;
+    for (std::size_t v = 0; v < alone.size(); ++v) alone[v] = finite(soup_.positions[v]);
+    for (std::uint32_t v : soup_.cornerVertex)
+      if (v < alone.size()) alone[v] = false;
+    return alone;
   }
 
   /// Vertices of the file that no triangle kept, and those that went into others.
@@ -269,10 +281,6 @@ class Repair {
     const std::size_t madeOfUsed = made - alone - report_.splitVertices;
     report_.removedVertices = soup_.positions.size() - used - alone;
     report_.weldedVertices = used > madeOfUsed ? used - madeOfUsed : 0;
-  }
-
-  bool keepsAlone(std::size_t v) const {
-    return isFinite(positions_[v]) && (v >= vertexOf_.size() || vertexOf_[v] == v);
   }
 
   void textureCoordinates(TriMesh& mesh) {
