@@ -174,7 +174,8 @@ Hit RayScene::intersect(const Ray& ray) const {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
+  return {query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v},
+          dot(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), ray.direction) > 0};
 }
 
 void RayScene::occludedFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
@@ -215,7 +216,8 @@ void RayScene::intersectFrom(const Vec3& origin, std::span<const float> dx, std:
     rtcIntersect16(packet.valid, impl_->scene, &context, &query);
     for (std::size_t k = 0; k < count; ++k)
       if (packet.valid[k] && query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
-        hits[i + k] = {query.hit.primID[k], query.ray.tfar[k], {query.hit.u[k], query.hit.v[k]}};
+        hits[i + k] = {query.hit.primID[k], query.ray.tfar[k], {query.hit.u[k], query.hit.v[k]},
+                       query.hit.Ng_x[k] * dx[i + k] + query.hit.Ng_y[k] * dy[i + k] + query.hit.Ng_z[k] * dz[i + k] > 0};
   }
   impl_->refuse(refused);
 }

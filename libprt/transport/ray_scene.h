@@ -26,6 +26,7 @@ struct Hit {
   std::uint32_t triangle = kNoHit;
   float t = 0;
   Vec2 barycentric{0};  ///< weights of corners 1 and 2; corner 0 has 1 - x - y
+  bool back = false;    ///< met from behind
   bool valid() const { return triangle != kNoHit; }
 };
 

@@ -197,6 +197,7 @@ SampleSet samplesAtVertices(const Scene& scene) {
   const TriMesh& mesh = scene.mesh;
   SampleSet set;
   resize(set, mesh.vertexCount());
+  set.vertices = mesh.vertexCount();
   numberBacks(set, scene);
   for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
     setFree(set, v, mesh.positions[v], mesh.normals[v]);

@@ -20,8 +20,9 @@ struct SampleSet {
   std::vector<Vec3> shadingNormal;    ///< [S] unit; cosines use it
   std::vector<std::uint32_t> triangle;  ///< [S] a triangle the sample lies on; kNone when it lies on none
   std::vector<Vec2> barycentric;        ///< [S] its place there: weights of corners 1 and 2
-  /// Empty, or for each of the first back.size() samples the sample on the other side of the same
-  /// surface point, kNone when that side does not reflect.
+  /// The first so many samples are the vertices of the scene's mesh, in order; 0 for other sets.
+  std::size_t vertices = 0;
+  /// Empty, or [vertices] the sample on the back of each vertex, kNone where that side does not reflect.
   std::vector<std::uint32_t> back;
 
   std::size_t size() const { return origin.size(); }

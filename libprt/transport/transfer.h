@@ -29,19 +29,33 @@ struct Transfer {
   int bands = 5;
   int channels = 1;         ///< 3 when bounces carry colour
   std::size_t samples = 0;
-  /// Diffuse: [S, n^2] or [S, n^2, 3]; Visibility: [S, (2n-1)^2]; Matrix: [S, n^2, n^2] or
-  /// [S, n^2, n^2, 3], row = transferred, column = light. f32 or f16.
+  /// f32 or f16, with n = bands. None: empty. Diffuse: [S, n^2], or [S, n^2, 3]. Visibility: [S, (2n-1)^2].
+  /// Matrix: in blocks of kMatrixLanes samples, [ceil(S / 16), channels, n^2 rows, n^2 columns, 16], samples
+  /// innermost, rows = transferred, columns = light; lanes beyond the last sample are zero. So applying it
+  /// reads memory once, in order, and works on 16 samples at a time; expandedMatrices() gives [S, n^2, n^2].
   Array values;
+  /// Visibility and Matrix: the diffuse vectors as well, [S, n^2] or [S, n^2, 3] f32. They are estimated with
+  /// the cosine inside, where T would cut it (times the light) off after n bands.
+  Array diffuse;
+  /// With bounces: [V, n^2] or [V, n^2, 3] f32, irradiance vectors of all bounces but the last at the
+  /// vertices of the scene (and their backs): what the last bounce gathered from. Any other set of points
+  /// gathers its bounces from it too.
+  Array surface;
   int raysPerSample = 0;    ///< rays gathered so far
   int raysWanted = 0;       ///< final when raysPerSample == raysWanted
-  int bounces = 0;
+  int bounces = 0;          ///< bounces in it; fewer than asked for when the rest would not show
+  /// Relative Frobenius norm of what rounding `values` to their storage type changed; 0 for f32.
+  double storageError = 0;
 
   bool final() const { return raysPerSample >= raysWanted; }
   int functions() const { return bands * bands; }
 };
 
-/// Irradiance at each sample, [S]. `normals` (shading normals, [S]) serve the forms that do not hold
-/// the cosine (None, Visibility, Matrix: E = sum of A_l Y_lm(n) (T L)_lm).
+inline constexpr std::size_t kMatrixLanes = 16;
+
+/// Irradiance at each sample, [S]. `normals` (shading normals, [S]) serve the form that does not hold the
+/// cosine (None: E = sum of A_l Y_lm(n) L_lm); others ignore them. Lights may have fewer or more bands than
+/// the transfer: what one of them lacks counts as zero.
 std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals);
 /// The same at some samples only, in the order of `samples` (`normals` is still [S]).
 std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals,
@@ -50,8 +64,22 @@ std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::s
 /// Transferred incident radiance of every sample, object frame: result[s * n^2 + i]. Not for the
 /// Diffuse form (throws ValueError).
 std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light);
+/// The same into memory of the caller's, [S * n^2], every element of which is written: for light that
+/// moves every frame, where fresh memory costs more than the product. Throws ValueError on another size.
+void transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span<Rgb> result);
 /// The same at some samples only: result[i * n^2 + k] for samples[i]. A picture needs only what it shows.
 std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light,
                                      std::span<const std::uint32_t> samples);
+
+/// Dense matrices as f32, [S, n^2, n^2] or [S, n^2, n^2, 3], row = transferred, column = light; the Visibility
+/// form is expanded, None gives identities. Throws ValueError for the Diffuse form, ResourceError when they
+/// would not fit in memory.
+Array expandedMatrices(const Transfer& transfer);
+/// Irradiance vectors as f32, [S, n^2] or [S, n^2, 3], for every form that holds them (not None: ValueError).
+Array diffuseVectors(const Transfer& transfer);
+
+/// The reverse of expandedMatrices() for the Matrix form: Transfer::values from [S, n^2, n^2] floats, or
+/// [S, n^2, n^2, 3] with 3 channels, stored as f32 or f16.
+Array matrixBlocks(std::span<const float> matrices, std::size_t samples, int channels, int bands, DType storage);
 
 }  // namespace prt

@@ -1,0 +1,141 @@
+#include "libprt/transport/buried.h"
+
+#include "libprt/core/parallel.h"
+#include "libprt/transport/bake_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr int kTestRays = 64;
+constexpr double kNearlyClosed = 0.1;
+
+/// Union-find over vertices.
+struct Pieces {
+  std::vector<std::uint32_t> parent;
+
+  explicit Pieces(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0u); }
+  std::uint32_t root(std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent[root(a)] = root(b); }
+};
+
+/// Joins vertices at one position, so that creases and texture seams do not cut a surface into pieces.
+void joinEqualPositions(const TriMesh& mesh, const Scene& scene, Pieces& pieces) {
+  std::vector<std::uint32_t> order(mesh.vertexCount());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t v) {
+    const Vec3& p = mesh.positions[v];
+    return std::array<float, 4>{float(scene.vertexObject[v]), p.x, p.y, p.z};
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]) == key(order[i - 1])) pieces.join(order[i], order[i - 1]);
+}
+
+/// [F] whether the triangle belongs to a piece with an inside.
+std::vector<std::uint8_t> trianglesWithInside(const Scene& scene) {
+  const TriMesh& mesh = scene.mesh;
+  Pieces pieces(mesh.vertexCount());
+  for (const UVec3& t : mesh.triangles) pieces.join(t.x, t.y), pieces.join(t.y, t.z);
+  joinEqualPositions(mesh, scene, pieces);
+  std::vector<DVec3> vector(mesh.vertexCount(), DVec3(0));
+  std::vector<double> area(mesh.vertexCount(), 0);
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    const std::uint32_t piece = pieces.root(mesh.triangles[t].x);
+    const DVec3 n(mesh.areaNormal(t));
+    vector[piece] += n;
+    area[piece] += length(n);
+  }
+  std::vector<std::uint8_t> inside(mesh.triangleCount());
+  for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+    const std::uint32_t piece = pieces.root(mesh.triangles[t].x);
+    inside[t] = length(vector[piece]) < kNearlyClosed * area[piece] && !scene.materialOf(t).twoSided;
+  }
+  return inside;
+}
+
+/// Neighbours of every vertex along edges, as pairs sorted by the first.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> edgesOfVertices(const TriMesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(mesh.triangleCount() * 6);
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      edges.emplace_back(t[k], t[(k + 1) % 3]);
+      edges.emplace_back(t[(k + 1) % 3], t[k]);
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, const SampleSet& samples,
+                                     std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job) {
+  std::vector<std::uint8_t> buried(samples.size(), 0);
+  const std::vector<std::uint8_t> inside = trianglesWithInside(scene);
+  if (std::find(inside.begin(), inside.end(), 1) == inside.end()) return buried;
+  const RayTable table(RaySpread::Uniform, 1, 0, kTestRays, seed, job);
+  parallelFor(job, 0, samples.size(), kBakeTile, [&](std::size_t begin, std::size_t end) {
+    WorldRays directions;
+    std::vector<Hit> hits(kTestRays);
+    for (std::size_t s = begin; s < end; ++s) {
+      if (!candidates[s]) continue;
+      directions.turn(table, bakeScramble(samples, s, seed), bakeFrame(samples, s, RaySpread::Uniform, seed));
+      rays.intersectFrom(samples.origin[s], directions.x, directions.y, directions.z, hits);
+      const auto backs = std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
+        return hit.valid() && hit.back && inside[hit.triangle];
+      });
+      buried[s] = backs * 4 > kTestRays;
+    }
+  });
+  return buried;
+}
+
+BuriedFill::BuriedFill(const Scene& scene, const SampleSet& samples, std::span<const std::uint8_t> buried) {
+  if (std::find(buried.begin(), buried.end(), 1) == buried.end() || samples.vertices == 0) return;
+  auto edges = edgesOfVertices(scene.mesh);
+  const std::size_t fronts = edges.size();
+  for (std::size_t i = 0; i < fronts && !samples.back.empty(); ++i)  // backs are neighbours of backs
+    if (samples.back[edges[i].first] != kNone && samples.back[edges[i].second] != kNone)
+      edges.emplace_back(samples.back[edges[i].first], samples.back[edges[i].second]);
+  std::sort(edges.begin() + std::ptrdiff_t(fronts), edges.end());
+
+  std::vector<std::uint8_t> open(buried.begin(), buried.end());
+  for (std::uint8_t& flag : open) flag = !flag;
+  for (bool filled = true; filled;) {  // one layer
+    const std::size_t firstOfLayer = target_.size();
+    for (std::size_t i = 0; i < edges.size();) {
+      const std::uint32_t sample = edges[i].first;
+      const auto sources = std::uint32_t(source_.size());
+      for (; i < edges.size() && edges[i].first == sample; ++i)
+        if (!open[sample] && open[edges[i].second]) source_.push_back(edges[i].second);
+      if (source_.size() == sources) continue;
+      target_.push_back(sample);
+      first_.push_back(sources);
+    }
+    for (std::size_t i = firstOfLayer; i < target_.size(); ++i) open[target_[i]] = 1;
+    filled = target_.size() > firstOfLayer;
+  }
+  first_.push_back(std::uint32_t(source_.size()));
+}
+
+void BuriedFill::apply(std::span<float> values, std::size_t stride) const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    float* to = values.data() + target(i) * stride;
+    std::fill(to, to + stride, 0.0f);
+    for (const std::uint32_t source : sources(i))
+      for (std::size_t c = 0; c < stride; ++c) to[c] += values[source * stride + c];
+    const float scale = 1.0f / float(sources(i).size());
+    for (std::size_t c = 0; c < stride; ++c) to[c] *= scale;
+  }
+}
+
+}  // namespace prt

@@ -1,0 +1,310 @@
+// Applying stored transfer to light. The dense form is bound by memory: its kernel reads the blocked array
+// once, in order, converts halves on the fly and keeps the RGB sums of 16 samples in registers.
+
+#include "libprt/basis/sh_product.h"
+#include "libprt/core/error.h"
+#include "libprt/core/half.h"
+#include "libprt/core/parallel.h"
+#include "libprt/transport/matrix_blocks.h"
+#include "libprt/transport/memory_limit.h"
+#include "libprt/transport/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#ifdef __F16C__
+#include <immintrin.h>
+#endif
+
+namespace prt {
+namespace {
+
+using Float8 = float __attribute__((vector_size(32), aligned(4), may_alias));
+
+/// Which samples are asked for: all, or a list.
+struct Selection {
+  std::optional<std::span<const std::uint32_t>> list;
+  std::size_t all;
+
+  std::size_t size() const { return list ? list->size() : all; }
+  std::size_t at(std::size_t i) const { return list ? (*list)[i] : i; }
+};
+
+void check(const Transfer& transfer, const Selection& selection) {
+  if (!selection.list) return;
+  for (const std::uint32_t s : *selection.list)
+    if (s >= transfer.samples)
+      throw ValueError("sample " + std::to_string(s) + " of " + std::to_string(transfer.samples), "transfer",
+                       "ask for samples that were baked");
+}
+
+/// The light at the transfer's number of bands.
+std::vector<Rgb> fitted(const ShRgb& light, int bands) {
+  std::vector<Rgb> c = light.c;
+  c.resize(std::size_t(shCount(bands)), Rgb(0));
+  return c;
+}
+
+inline Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
+inline Float8 load8(const std::uint16_t* p) {
+#ifdef __F16C__
+  return Float8(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
+#else
+  Float8 out;
+  for (int i = 0; i < 8; ++i) out[i] = fromHalf(p[i]);
+  return out;
+#endif
+}
+
+// ---- Matrix ----
+
+/// `Rows` rows of one block times the light, for `Colours` colours: sum[(row * 3 + colour) * 16 + lane].
+/// `light` holds, per column, the colours that this channel's matrix is applied to.
+template <int Rows, int Colours, class T>
+void multiplyRows(const T* matrix, std::size_t functions, const float* light, float* sum, int sumStride) {
+  Float8 acc[Rows][Colours][2] = {};
+  const std::size_t rowSize = functions * kMatrixLanes;
+  for (std::size_t column = 0; column < functions; ++column)
+    for (int r = 0; r < Rows; ++r) {
+      const T* at = matrix + std::size_t(r) * rowSize + column * kMatrixLanes;
+      const Float8 low = load8(at), high = load8(at + 8);
+      for (int c = 0; c < Colours; ++c) {
+        acc[r][c][0] += low * light[column * Colours + std::size_t(c)];
+        acc[r][c][1] += high * light[column * Colours + std::size_t(c)];
+      }
+    }
+  for (int r = 0; r < Rows; ++r)
+    for (int c = 0; c < Colours; ++c)
+      for (int h = 0; h < 2; ++h)
+        *reinterpret_cast<Float8*>(sum + r * sumStride + c * int(kMatrixLanes) + 8 * h) = acc[r][c][h];
+}
+
+template <int Colours, class T>
+void multiplyBlock(const T* matrix, std::size_t functions, const float* light, float* sum) {
+  constexpr int kRowsAtOnce = Colours == 3 ? 2 : 4;
+  constexpr int kSumStride = 3 * int(kMatrixLanes);
+  std::size_t row = 0;
+  for (; row + kRowsAtOnce <= functions; row += kRowsAtOnce)
+    multiplyRows<kRowsAtOnce, Colours>(matrix + row * functions * kMatrixLanes, functions, light, sum + row * kSumStride, kSumStride);
+  for (; row < functions; ++row)
+    multiplyRows<1, Colours>(matrix + row * functions * kMatrixLanes, functions, light, sum + row * kSumStride, kSumStride);
+}
+
+/// All samples of one block: sum[(row * 3 + colour) * 16 + lane].
+template <class T>
+void multiplyBlock(const T* block, const MatrixLayout& layout, const std::vector<Rgb>& light, float* sum) {
+  if (layout.channels == 1) return multiplyBlock<3>(block, layout.functions, &light[0].x, sum);
+  std::vector<float> one(layout.functions);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < layout.functions; ++k) one[k] = light[k][int(c)];
+    multiplyBlock<1>(block + c * layout.channelSize(), layout.functions, one.data(), sum + c * kMatrixLanes);
+  }
+}
+
+void storeLane(const float* sum, std::size_t functions, std::size_t lane, Rgb* result) {
+  for (std::size_t k = 0; k < functions; ++k, sum += 3 * kMatrixLanes)
+    result[k] = {sum[lane], sum[kMatrixLanes + lane], sum[2 * kMatrixLanes + lane]};
+}
+
+template <class T>
+void applyMatrix(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection, Rgb* result) {
+  const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels), std::size_t(transfer.functions())};
+  const T* values = transfer.values.as<T>().data();
+  Job job;
+  if (!selection.list) {
+    parallelFor(job, 0, layout.blocks(), 16, [&](std::size_t begin, std::size_t end) {
+      std::vector<float> sum(layout.functions * 3 * kMatrixLanes);
+      for (std::size_t b = begin; b < end; ++b) {
+        multiplyBlock(values + b * layout.blockSize(), layout, light, sum.data());
+        const std::size_t lanes = std::min(kMatrixLanes, layout.samples - b * kMatrixLanes);
+        for (std::size_t i = 0; i < lanes; ++i)
+          storeLane(sum.data(), layout.functions, i, result + (b * kMatrixLanes + i) * layout.functions);
+      }
+    });
+    return;
+  }
+  // Samples of a list share blocks: each block that is named is multiplied once.
+  std::vector<std::uint32_t> order(selection.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return selection.at(a) < selection.at(b); });
+  parallelFor(job, 0, order.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> sum(layout.functions * 3 * kMatrixLanes);
+    std::size_t current = layout.blocks();
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t sample = selection.at(order[i]), block = sample / kMatrixLanes;
+      if (block != current) multiplyBlock(values + block * layout.blockSize(), layout, light, sum.data());
+      current = block;
+      storeLane(sum.data(), layout.functions, sample % kMatrixLanes, result + order[i] * layout.functions);
+    }
+  });
+}
+
+// ---- Visibility ----
+
+/// The light as a matrix on visibility coefficients: (T L)_i = sum over k of v_k B_ki with
+/// B_ki = sum over j of G_ijk L_j. Rows k are padded to a multiple of 8 floats.
+struct VisibilityLight {
+  std::size_t wide, stride;
+  std::vector<float> rows;
+
+  VisibilityLight(int bands, const std::vector<Rgb>& light)
+      : wide(std::size_t(shCount(2 * bands - 1))), stride((std::size_t(shCount(bands)) * 3 + 7) / 8 * 8), rows(wide * stride, 0.0f) {
+    for (const GauntTensor::Entry& g : gauntTensor(bands, bands, 2 * bands - 1).entries())
+      for (int c = 0; c < 3; ++c) rows[g.k * stride + std::size_t(g.i) * 3 + std::size_t(c)] += float(g.value) * light[g.j][c];
+  }
+};
+
+template <int Vectors>
+void multiplyVisibility(const float* v, const VisibilityLight& light, std::size_t at, float* sum) {
+  Float8 acc[Vectors] = {};
+  for (std::size_t k = 0; k < light.wide; ++k) {
+    const float* row = light.rows.data() + k * light.stride + at;
+    for (int i = 0; i < Vectors; ++i) acc[i] += v[k] * load8(row + 8 * i);
+  }
+  for (int i = 0; i < Vectors; ++i) *reinterpret_cast<Float8*>(sum + at + std::size_t(8 * i)) = acc[i];
+}
+
+/// sum[stride] = v B, ten vectors of columns at a time.
+void multiplyVisibility(const float* v, const VisibilityLight& light, float* sum) {
+  std::size_t at = 0;
+  for (; at + 80 <= light.stride; at += 80) multiplyVisibility<10>(v, light, at, sum);
+  for (; at < light.stride; at += 8) multiplyVisibility<1>(v, light, at, sum);
+}
+
+/// Row `sample` of a [S, width] array, as f32; `buffer` serves when it is stored as f16.
+const float* rowOf(const Array& array, std::size_t width, std::size_t sample, std::vector<float>& buffer) {
+  if (array.dtype == DType::f32) return array.as<float>().data() + sample * width;
+  buffer.resize(width);
+  fromHalf(array.as<std::uint16_t>().subspan(sample * width, width), buffer);
+  return buffer.data();
+}
+
+void applyVisibility(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection, Rgb* result) {
+  const VisibilityLight matrix(transfer.bands, light);
+  const auto functions = std::size_t(transfer.functions());
+  Job job;
+  parallelFor(job, 0, selection.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> buffer, sum(matrix.stride);
+    for (std::size_t i = begin; i < end; ++i) {
+      multiplyVisibility(rowOf(transfer.values, matrix.wide, selection.at(i), buffer), matrix, sum.data());
+      std::copy_n(sum.data(), functions * 3, &result[i * functions].x);
+    }
+  });
+}
+
+// ---- All forms ----
+
+void apply(const Transfer& transfer, const ShRgb& light, const Selection& selection, Rgb* result) {
+  check(transfer, selection);
+  const std::vector<Rgb> c = fitted(light, transfer.bands);
+  switch (transfer.form) {
+    case TransferForm::None:
+      for (std::size_t i = 0; i < selection.size(); ++i) std::copy(c.begin(), c.end(), result + i * c.size());
+      return;
+    case TransferForm::Visibility: return applyVisibility(transfer, c, selection, result);
+    case TransferForm::Matrix:
+      return transfer.values.dtype == DType::f16 ? applyMatrix<std::uint16_t>(transfer, c, selection, result)
+                                                 : applyMatrix<float>(transfer, c, selection, result);
+    case TransferForm::Diffuse: break;
+  }
+  throw ValueError("diffuse vectors hold no transferred radiance", "transfer", "bake the visibility or matrix form");
+}
+
+/// Irradiance coefficients of light that nothing blocks: E(n) = sum of A_l L_lm Y_lm(n).
+std::vector<Rgb> convolvedWithCosine(std::vector<Rgb> c, int bands) {
+  double factorial = 1;  // (l choose l/2) / 2^l for even l
+  for (int l = 0; l < bands; ++l) {
+    double a = 0;
+    if (l == 1) a = 2 * kPi / 3;
+    if (l % 2 == 0) {
+      if (l > 0) factorial *= (l - 1.0) / l;
+      const double sign = l == 0 ? -1 : l % 4 == 2 ? 1 : -1;  // of (-1)^(l/2-1), and (l+2)(l-1) < 0 at l = 0
+      a = 2 * kPi * sign / ((l + 2.0) * (l - 1.0)) * factorial;
+    }
+    for (int m = -l; m <= l; ++m) c[std::size_t(shIndex(l, m))] *= float(a);
+  }
+  return c;
+}
+
+std::vector<Rgb> unblockedIrradiance(const Transfer& transfer, const std::vector<Rgb>& light, std::span<const Vec3> normals,
+                                     const Selection& selection) {
+  const std::vector<Rgb> e = convolvedWithCosine(light, transfer.bands);
+  std::vector<Rgb> result(selection.size());
+  Job job;
+  parallelFor(job, 0, result.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> y(e.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      shEvaluate(transfer.bands, normals[selection.at(i)], y);
+      Rgb sum(0);
+      for (std::size_t k = 0; k < e.size(); ++k) sum += y[k] * e[k];
+      result[i] = sum;
+    }
+  });
+  return result;
+}
+
+/// Dot products of [S, n^2] or [S, n^2, 3] vectors with the light.
+std::vector<Rgb> dotProducts(const Array& vectors, int channels, const std::vector<Rgb>& light, const Selection& selection) {
+  const std::size_t width = light.size() * std::size_t(channels);
+  std::vector<Rgb> result(selection.size());
+  Job job;
+  parallelFor(job, 0, result.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> buffer;
+    for (std::size_t i = begin; i < end; ++i) {
+      const float* e = rowOf(vectors, width, selection.at(i), buffer);
+      Rgb sum(0);
+      if (channels == 1)
+        for (std::size_t k = 0; k < light.size(); ++k) sum += e[k] * light[k];
+      else
+        for (std::size_t k = 0; k < light.size(); ++k) sum += Rgb(e[3 * k], e[3 * k + 1], e[3 * k + 2]) * light[k];
+      result[i] = sum;
+    }
+  });
+  return result;
+}
+
+std::vector<Rgb> irradianceOf(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals,
+                              const Selection& selection) {
+  check(transfer, selection);
+  const std::vector<Rgb> c = fitted(light, transfer.bands);
+  if (transfer.form == TransferForm::None) {
+    if (normals.size() != transfer.samples)
+      throw ValueError("unshadowed irradiance needs a normal per sample", "transfer", "give [S] shading normals");
+    return unblockedIrradiance(transfer, c, normals, selection);
+  }
+  return dotProducts(transfer.form == TransferForm::Diffuse ? transfer.values : transfer.diffuse, transfer.channels, c, selection);
+}
+
+}  // namespace
+
+std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals) {
+  return irradianceOf(transfer, light, normals, {std::nullopt, transfer.samples});
+}
+
+std::vector<Rgb> irradiance(const Transfer& transfer, const ShRgb& light, std::span<const Vec3> normals,
+                            std::span<const std::uint32_t> samples) {
+  return irradianceOf(transfer, light, normals, {samples, transfer.samples});
+}
+
+std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light) {
+  std::vector<Rgb> result(transfer.samples * std::size_t(transfer.functions()));
+  apply(transfer, light, {std::nullopt, transfer.samples}, result.data());
+  return result;
+}
+
+void transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span<Rgb> result) {
+  if (result.size() != transfer.samples * std::size_t(transfer.functions()))
+    throw ValueError("result has room for " + std::to_string(result.size()) + " coefficients", "transfer",
+                     "give samples x bands^2");
+  apply(transfer, light, {std::nullopt, transfer.samples}, result.data());
+}
+
+std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span<const std::uint32_t> samples) {
+  std::vector<Rgb> result(samples.size() * std::size_t(transfer.functions()));
+  apply(transfer, light, {samples, transfer.samples}, result.data());
+  return result;
+}
+
+}  // namespace prt
