@@ -1,0 +1,277 @@
+#include "libprt/shade/render.h"
+
+#include "libprt/core/error.h"
+#include "libprt/core/parallel.h"
+#include "libprt/material/glossy_response.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace prt {
+namespace {
+
+constexpr int kMaxFunctions = kMaxResponseBands * kMaxResponseBands;
+
+/// What a fragment shows: three samples with weights, and the side that is seen.
+struct Surface {
+  std::array<std::uint32_t, 3> sample{};
+  Vec3 weight{0};
+  UVec3 vertex{0};
+  float side = 1;
+  const Material* material = nullptr;  // null: nothing is reflected from here
+};
+
+Surface surfaceOf(const RenderInput& input, const Fragment& f) {
+  Surface s;
+  const Material& material = input.scene.materialOf(f.triangle);
+  if (f.back && !material.twoSided) return s;
+  s.vertex = input.scene.mesh.triangles[f.triangle];
+  s.weight = {1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y};
+  s.side = f.back ? -1.0f : 1.0f;
+  const std::vector<std::uint32_t>& back = input.samples.back;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t v = s.vertex[int(i)];
+    s.sample[i] = !f.back ? v : v < back.size() ? back[v] : kNone;
+    if (s.sample[i] == kNone) return s;
+  }
+  s.material = &material;
+  return s;
+}
+
+Vec3 interpolate(const Surface& s, const std::vector<Vec3>& values) {
+  return s.weight.x * values[s.vertex.x] + s.weight.y * values[s.vertex.y] + s.weight.z * values[s.vertex.z];
+}
+
+/// Shading normal on the side that is seen.
+Vec3 normalOf(const RenderInput& input, const Fragment& f, const Surface& s) {
+  const Vec3 smooth = interpolate(s, input.scene.mesh.normals);
+  const float size = length(smooth);
+  if (size > 1e-6f) return s.side / size * smooth;
+  const Vec3 face = input.scene.mesh.areaNormal(f.triangle);
+  return s.side * (length(face) > 0 ? normalize(face) : Vec3(0, 0, 1));
+}
+
+/// The samples that visible triangles use, and where each one's results are.
+struct Needed {
+  std::vector<std::uint32_t> samples;  // ascending
+  std::vector<std::uint32_t> slot;     // [S] index into `samples`
+};
+
+Needed neededSamples(const RenderInput& input, const FragmentImage& view, Job& job) {
+  std::vector<std::uint8_t> used(input.samples.size(), 0);
+  parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t tile, std::size_t) {
+    for (const Fragment& f : view.tiles[tile].fragments) {
+      const Surface s = surfaceOf(input, f);
+      if (!s.material) continue;
+      for (const std::uint32_t sample : s.sample)
+        std::atomic_ref(used[sample]).store(1, std::memory_order_relaxed);
+    }
+  });
+  Needed needed;
+  needed.slot.resize(used.size(), 0);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    needed.slot[i] = std::uint32_t(needed.samples.size());
+    needed.samples.push_back(std::uint32_t(i));
+  }
+  return needed;
+}
+
+/// Interpolates irradiance of the vertices.
+struct VertexIrradiance {
+  const RenderInput& input;
+  const Needed& needed;
+  std::vector<Rgb> irradiance;  // by slot
+
+  Rgb operator()(const Fragment&, const Surface& s) const {
+    Rgb e(0);
+    for (std::size_t i = 0; i < 3; ++i) e += s.weight[int(i)] * irradiance[needed.slot[s.sample[i]]];
+    return s.material->albedo * e * (1 / kPiF);
+  }
+};
+
+/// Irradiance / pi from radiance of a few bands.
+Rgb lambertRadiance(int bands, const Vec3& normal, std::span<const Rgb> incident) {
+  std::array<float, kMaxFunctions> response;
+  lambertResponse(bands, normal, response);
+  Rgb sum(0);
+  for (std::size_t k = 0; k < incident.size(); ++k) sum += response[k] * incident[k];
+  return sum;
+}
+
+/// Interpolates transferred radiance and lets the material respond at the pixel.
+struct PixelResponse {
+  const RenderInput& input;
+  const Needed& needed;
+  Vec3 eye;
+  bool glossy;
+  int bands;
+  std::vector<Rgb> transferred;                        // by slot, bands^2 each; the light alone for TransferForm::None
+  std::vector<Rgb> cutOff;                             // by slot; empty where nothing is known of it
+  std::vector<std::optional<GlossyResponse>> glosses;  // [objects], where glossy
+
+  std::span<const Rgb> incident(const Surface& s, std::array<Rgb, kMaxFunctions>& buffer) const {
+    if (input.transfer.form == TransferForm::None) return transferred;
+    const std::size_t n = std::size_t(shCount(bands));
+    const Rgb* x[3];
+    for (std::size_t i = 0; i < 3; ++i) x[i] = transferred.data() + n * needed.slot[s.sample[i]];
+    for (std::size_t k = 0; k < n; ++k) buffer[k] = s.weight.x * x[0][k] + s.weight.y * x[1][k] + s.weight.z * x[2][k];
+    return {buffer.data(), n};
+  }
+
+  /// The part of irradiance / pi that transferred radiance of few bands misses: exact at the samples.
+  Rgb missing(const Surface& s) const {
+    Rgb sum(0);
+    for (std::size_t i = 0; i < 3 && !cutOff.empty(); ++i) sum += s.weight[int(i)] * cutOff[needed.slot[s.sample[i]]];
+    return sum;
+  }
+
+  Rgb operator()(const Fragment& f, const Surface& s) const {
+    std::array<Rgb, kMaxFunctions> buffer;
+    const std::span<const Rgb> light = incident(s, buffer);
+    const Vec3 normal = normalOf(input, f, s);
+    const Rgb rest = s.material->albedo * missing(s);
+    const std::uint32_t object = input.scene.triangleObject[f.triangle];
+    if (glossy && glosses[object]) {
+      const Vec3 toEye = eye - interpolate(s, input.scene.mesh.positions);
+      const float distance = length(toEye);
+      const Vec3 view = distance > 0 ? toEye / distance : normal;
+      return rest + exitRadiance(*s.material, &*glosses[object], normal, view, light);
+    }
+    return rest + s.material->albedo * lambertRadiance(bands, normal, light);
+  }
+};
+
+/// Clamped to what a picture may hold.
+Rgb sound(const Rgb& c) {
+  const auto one = [](float v) { return v > 0 ? std::min(v, 3e38f) : 0.0f; };  // NaN gives 0
+  return {one(c.x), one(c.y), one(c.z)};
+}
+
+/// Light behind a pixel, mean over its samples.
+Rgb backgroundOf(const LightRig& rig, const CameraRays& rays, int x, int y, int grid) {
+  Rgb sum(0);
+  for (int sy = 0; sy < grid; ++sy)
+    for (int sx = 0; sx < grid; ++sx)
+      sum += radiance(rig, rays.direction(float(x) + (float(sx) + 0.5f) / float(grid),
+                                          float(y) + (float(sy) + 0.5f) / float(grid)));
+  return sum / float(grid * grid);
+}
+
+template <class Shader>
+Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera, const Shader& shader, Job& job) {
+  Image image(view.width, view.height, 4);
+  const CameraRays rays(camera, view.width, view.height);
+  const float part = 1.0f / float(view.grid * view.grid);
+  parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
+    const FragmentTile& tile = view.tiles[t];
+    for (int y = 0; y < tile.height; ++y) {
+      job.checkCancelled();
+      for (int x = 0; x < tile.width; ++x) {
+        Rgb sum(0);
+        float alpha = 0;
+        for (const Fragment& f : tile.pixel(std::size_t(y) * std::size_t(tile.width) + std::size_t(x))) {
+          const Surface s = surfaceOf(input, f);
+          const float weight = float(f.samples) * part;
+          if (s.material) sum += weight * sound(shader(f, s));
+          alpha += weight;
+        }
+        if (input.background && alpha < 1) {
+          sum += (1 - alpha) * sound(backgroundOf(*input.background, rays, tile.x + x, tile.y + y, view.grid));
+          alpha = 1;
+        }
+        float* to = image.pixel(tile.x + x, tile.y + y);
+        to[0] = sum.x, to[1] = sum.y, to[2] = sum.z, to[3] = alpha;
+      }
+    }
+  });
+  return image;
+}
+
+void expectFit(const RenderInput& input) {
+  const auto refuse = [](const std::string& what) { throw ValueError(what, "renderer", "bake the scene again"); };
+  const std::size_t samples = input.samples.size();
+  if (samples < input.scene.mesh.vertexCount()) refuse("the sample set has fewer samples than the scene has vertices");
+  if (!input.irradiance.empty()) {
+    if (input.irradiance.size() != samples) refuse("irradiance is not given at every sample");
+    return;
+  }
+  if (input.transfer.form != TransferForm::None && input.transfer.samples != samples)
+    refuse("transfer was baked for " + std::to_string(input.transfer.samples) + " samples, the scene has " + std::to_string(samples));
+  if (input.transfer.bands > kMaxResponseBands && input.transfer.form != TransferForm::Diffuse)
+    refuse("transfer has more than " + std::to_string(kMaxResponseBands) + " bands");
+}
+
+/// What transferred radiance of n bands lacks of the exact irradiance / pi at each needed sample: the
+/// product of light and visibility goes beyond n bands, and the cosine meets it there.
+std::vector<Rgb> cutOffIrradiance(const RenderInput& input, const Needed& needed, std::span<const Rgb> transferred) {
+  if (input.transfer.diffuse.bytes.empty()) return {};
+  const int bands = input.transfer.bands;
+  const std::size_t n = std::size_t(shCount(bands));
+  std::vector<Rgb> rest = irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const Vec3& normal = input.samples.shadingNormal[needed.samples[i]];
+    rest[i] = rest[i] / kPiF - lambertRadiance(bands, normal, transferred.subspan(i * n, n));
+  }
+  return rest;
+}
+
+PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera, bool glossy) {
+  PixelResponse shader{input, needed, camera.eye, glossy, input.transfer.bands, {}, {}, {}};
+  const std::size_t n = std::size_t(shCount(shader.bands));
+  if (input.transfer.form == TransferForm::None) {
+    shader.transferred = input.light.c;
+    shader.transferred.resize(n, Rgb(0));
+  } else {
+    shader.transferred = transferredRadiance(input.transfer, input.light, needed.samples);
+    shader.cutOff = cutOffIrradiance(input, needed, shader.transferred);
+  }
+  shader.glosses.resize(input.scene.materials.size());
+  for (std::size_t i = 0; glossy && i < shader.glosses.size(); ++i)
+    if (input.scene.materials[i].glossy()) shader.glosses[i].emplace(input.scene.materials[i].exponent, shader.bands);
+  return shader;
+}
+
+}  // namespace
+
+ShadeMethod resolveMethod(const RenderInput& input) {
+  const bool canGloss = input.irradiance.empty() && input.transfer.form != TransferForm::Diffuse;
+  if (input.method == ShadeMethod::Glossy && !canGloss)
+    throw ValueError("diffuse transfer cannot show a glossy material", "renderer",
+                     "bake with transfer.kind=visibility or matrix, or use the diffuse method");
+  if (input.method != ShadeMethod::Auto) return input.method;
+  const auto& materials = input.scene.materials;
+  const bool glossy = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
+  return glossy && canGloss ? ShadeMethod::Glossy : ShadeMethod::Diffuse;
+}
+
+Image shade(const RenderInput& input, const FragmentImage& view, const Camera& camera, Job& job) {
+  expectFit(input);
+  const ShadeMethod method = resolveMethod(input);
+  const Needed needed = neededSamples(input, view, job);
+  job.checkCancelled();
+  if (!input.irradiance.empty() || input.transfer.form == TransferForm::Diffuse) {
+    VertexIrradiance shader{input, needed, {}};
+    if (input.irradiance.empty())
+      shader.irradiance = irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);
+    else
+      for (const std::uint32_t sample : needed.samples) shader.irradiance.push_back(input.irradiance[sample]);
+    return shadeTiles(input, view, camera, shader, job);
+  }
+  return shadeTiles(input, view, camera, pixelResponse(input, needed, camera, method == ShadeMethod::Glossy), job);
+}
+
+Image render(const RenderInput& input, const Camera& camera, int width, int height, int grid, Job& job) {
+  job.begin("rendering", double(width) * height, "pixels");
+  const FragmentImage view = rasterize(input.scene.mesh, camera, width, height, grid, job);
+  Image image = shade(input, view, camera, job);
+  job.advance(double(width) * height);
+  return image;
+}
+
+}  // namespace prt

@@ -1,0 +1,58 @@
+#pragma once
+// Pictures from precomputed transfer, on the CPU: rasterised, shaded once per fragment, multi-threaded.
+//
+//   Diffuse  irradiance at the vertices, interpolated, times albedo/pi. Where the stored form keeps
+//            radiance apart from the normal (None, Visibility, Matrix) transferred radiance is interpolated
+//            and met with the pixel's own normal; what its few bands miss of the exact irradiance at the
+//            vertices, which these forms hold too, is interpolated and added.
+//   Glossy   transferred radiance (object frame) interpolated over the triangle, dotted with the
+//            response of the BRDF towards the viewer at the pixel (Kautz 2002; libprt/material/glossy_response.h).
+//
+// Surfaces seen from behind are black unless their material is two-sided. Radiance below zero (ringing
+// of truncated harmonics) becomes 0. No pixel is ever NaN. The result does not depend on threads.
+
+#include "libprt/basis/sh.h"
+#include "libprt/core/image.h"
+#include "libprt/core/job.h"
+#include "libprt/light/light_rig.h"
+#include "libprt/shade/camera.h"
+#include "libprt/shade/raster.h"
+#include "libprt/transport/sample_set.h"
+#include "libprt/transport/scene.h"
+#include "libprt/transport/transfer.h"
+
+#include <span>
+
+namespace prt {
+
+enum class ShadeMethod {
+  Auto,  ///< Glossy when a material is and the stored form can show it, else Diffuse
+  Diffuse,
+  Glossy  ///< not with the Diffuse form
+};
+
+/// What is seen. Everything referred to must outlive the call.
+struct RenderInput {
+  const Scene& scene;
+  const SampleSet& samples;    ///< samplesAtVertices(scene)
+  const Transfer& transfer;    ///< over `samples`
+  const ShRgb& light;          ///< bands that the transfer lacks are left out
+  ShadeMethod method = ShadeMethod::Auto;
+  /// Irradiance at each sample, [S], to be shown in place of transfer and light (Diffuse only): for
+  /// light that was computed in another way. Empty = not given.
+  std::span<const Rgb> irradiance = {};
+  const LightRig* background = nullptr;  ///< seen behind the scene; null = black, alpha = coverage
+};
+
+/// Which of Diffuse and Glossy `method` means for this scene and transfer. Throws ValueError for Glossy
+/// with the Diffuse form or given irradiance.
+ShadeMethod resolveMethod(const RenderInput& input);
+
+/// Shades what `view` sees; float RGBA, premultiplied. Work is proportional to what is seen: transfer is
+/// applied only at samples of visible triangles. Throws ValueError when sizes or bands do not match.
+Image shade(const RenderInput& input, const FragmentImage& view, const Camera& camera, Job& job);
+
+/// Rasterises with grid x grid samples per pixel, then shades.
+Image render(const RenderInput& input, const Camera& camera, int width, int height, int grid, Job& job);
+
+}  // namespace prt
