@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 
 namespace prt {
@@ -36,45 +37,49 @@ constexpr std::array<Polynomial, kSobolDimensions - 1> kPolynomials{{{1, 0, {1}}
                                                                      {4, 4, {1, 3, 5, 13}},
                                                                      {5, 2, {1, 1, 5, 5, 17}}}};
 
-constexpr int kLowBits = 8;  // of the index, looked up in a table
+/// What each binary digit of the index contributes; the first digit after the point is the top bit.
+constexpr std::array<std::uint32_t, 32> directionNumbers(int dimension) {
+  std::array<std::uint32_t, 32> v{};
+  if (dimension == 0) {
+    for (int k = 0; k < 32; ++k) v[k] = 1u << (31 - k);
+    return v;
+  }
+  const Polynomial& p = kPolynomials[dimension - 1];
+  for (int k = 0; k < p.degree; ++k) v[k] = p.first[k] << (31 - k);
+  for (int k = p.degree; k < 32; ++k) {
+    v[k] = v[k - p.degree] ^ (v[k - p.degree] >> p.degree);
+    for (int i = 1; i < p.degree; ++i)
+      if ((p.inner >> (p.degree - 1 - i)) & 1) v[k] ^= v[k - i];
+  }
+  return v;
+}
+
+/// ofByte[b][v]: what value v of byte b of the index contributes, digits reversed.
+struct Dimension {
+  std::array<std::array<std::uint32_t, 256>, 4> ofByte{};
+};
 
 struct Tables {
-  std::array<std::array<std::uint32_t, 32>, kSobolDimensions> direction{};
-  std::array<std::array<std::uint32_t, 1 << kLowBits>, kSobolDimensions> low{};
+  std::array<Dimension, kSobolDimensions> dimension{};
 
   constexpr Tables() {
     for (int d = 0; d < kSobolDimensions; ++d) {
-      std::array<std::uint32_t, 32> v{};  // digits in normal order: the first digit is the top bit
-      if (d == 0) {
-        for (int k = 0; k < 32; ++k) v[k] = 1u << (31 - k);
-      } else {
-        const Polynomial& p = kPolynomials[d - 1];
-        for (int k = 0; k < 32; ++k) {
-          if (k < p.degree) {
-            v[k] = p.first[k] << (31 - k);
-            continue;
-          }
-          v[k] = v[k - p.degree] ^ (v[k - p.degree] >> p.degree);
-          for (int i = 1; i < p.degree; ++i)
-            if ((p.inner >> (p.degree - 1 - i)) & 1) v[k] ^= v[k - i];
+      const std::array<std::uint32_t, 32> v = directionNumbers(d);
+      for (int byte = 0; byte < 4; ++byte)
+        for (int value = 1; value < 256; ++value) {
+          const int lowest = std::countr_zero(unsigned(value));
+          auto& table = dimension[d].ofByte[byte];
+          table[value] = table[value & (value - 1)] ^ reverseBits(v[8 * byte + lowest]);
         }
-      }
-      for (int k = 0; k < 32; ++k) direction[d][k] = reverseBits(v[k]);
-      for (int i = 1; i < (1 << kLowBits); ++i)
-        for (int k = 0; k < kLowBits; ++k)
-          if ((i >> k) & 1) low[d][i] ^= direction[d][k];
     }
   }
 };
 
 constexpr Tables kTables;
 
-std::uint32_t reversedHighPart(std::uint32_t index, int dimension) {
-  std::uint32_t x = 0;
-  index >>= kLowBits;
-  for (int k = kLowBits; index != 0; ++k, index >>= 1)
-    x ^= (0u - (index & 1)) & kTables.direction[dimension][k];
-  return x;
+/// Contribution of all but the lowest byte of the index.
+std::uint32_t reversedHighPart(std::uint32_t index, const Dimension& d) {
+  return d.ofByte[1][(index >> 8) & 255] ^ d.ofByte[2][(index >> 16) & 255] ^ d.ofByte[3][index >> 24];
 }
 
 /// Each step changes a bit by a function of the lower ones and the seed only; the constants were chosen
@@ -99,9 +104,10 @@ std::uint32_t owenScramble(std::uint32_t digits, std::uint32_t seed) {
 }
 
 float sobol(std::uint32_t index, int dimension, std::uint64_t seed) {
-  const int set = dimension / kSobolDimensions, d = dimension % kSobolDimensions;
+  const int set = dimension / kSobolDimensions;
+  const Dimension& d = kTables.dimension[dimension % kSobolDimensions];
   if (set > 0) index = owenScramble(index, seedOf(~seed, set));
-  const std::uint32_t x = kTables.low[d][index & ((1 << kLowBits) - 1)] ^ reversedHighPart(index, d);
+  const std::uint32_t x = d.ofByte[0][index & 255] ^ reversedHighPart(index, d);
   return unitFloat(reverseBits(scrambleReversed(x, seedOf(seed, dimension))));
 }
 
@@ -113,12 +119,13 @@ void sobolFill(std::uint32_t first, int dimension, std::uint64_t seed, std::span
   if (dimension < 0 || dimension >= kSobolDimensions)
     throw ValueError("no dimension " + std::to_string(dimension), "Sobol points", "use 0 to 7");
   const std::uint32_t scramble = seedOf(seed, dimension);
-  constexpr std::uint32_t kBlock = 1 << kLowBits;
+  const Dimension& d = kTables.dimension[dimension];
+  constexpr std::uint32_t kBlock = 256;
   for (std::size_t done = 0; done < out.size();) {
     const std::uint32_t index = first + std::uint32_t(done), start = index & (kBlock - 1);
-    const std::uint32_t high = reversedHighPart(index, dimension);
+    const std::uint32_t high = reversedHighPart(index, d);
     const std::size_t count = std::min<std::size_t>(kBlock - start, out.size() - done);
-    const std::uint32_t* low = kTables.low[dimension].data() + start;
+    const std::uint32_t* low = d.ofByte[0].data() + start;
     float* to = out.data() + done;
     for (std::size_t i = 0; i < count; ++i)
       to[i] = unitFloat(reverseBits(scrambleReversed(low[i] ^ high, scramble)));
