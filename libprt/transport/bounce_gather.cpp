@@ -21,17 +21,17 @@ struct HitRows {
   std::array<float, 3> weight;
 };
 
-/// Finds rows for hits.
+/// Finds rows for hits, with or without the cosine in their weights.
 class HitReader {
  public:
-  HitReader(const Scene& scene, const SampleSet& surface, const SampleRows& leaving)
-      : scene_(scene), surface_(surface), leaving_(leaving) {}
+  HitReader(const Scene& scene, const SampleSet& surface, const SampleRows& leaving, bool cosine)
+      : scene_(scene), surface_(surface), leaving_(leaving), cosine_(cosine) {}
 
   HitRows at(const HitBlock& block, std::size_t i) const {
     const std::uint32_t code = block.triangle[i], packed = block.barycentric[i];
     const UVec3& corner = scene_.mesh.triangles[code & ~kBackHit];
     const float b1 = float(packed & 0xffffu) * (1.0f / 65535), b2 = float(packed >> 16) * (1.0f / 65535);
-    const float scale = block.cosine.empty() ? 1.0f : block.cosine[i];
+    const float scale = cosine_ ? block.cosine[i] : 1.0f;
     HitRows hit{{}, {scale * (1 - b1 - b2), scale * b1, scale * b2}};
     for (int k = 0; k < 3; ++k) hit.row[std::size_t(k)] = leaving_.row(code & kBackHit ? surface_.back[corner[k]] : corner[k]);
     return hit;
@@ -41,6 +41,7 @@ class HitReader {
   const Scene& scene_;
   const SampleSet& surface_;
   const SampleRows& leaving_;
+  bool cosine_;
 };
 
 /// sum[0 .. 8 * Vectors) += weighted rows of the hits [begin, end), one after the other.
@@ -174,7 +175,7 @@ void BounceGather::overChunk(int begin, int end, std::size_t firstTile, std::siz
 
 SampleRows BounceGather::irradiance(const SampleRows& leaving, Job& job) {
   SampleRows out(samples_.size(), leaving.width);
-  const HitReader reader(scene_, surface_, leaving);
+  const HitReader reader(scene_, surface_, leaving, spread_ == RaySpread::Uniform);
   const int rays = direct_.raysPerSample;
   for (int begin = 0; begin < rays; begin += kChunkRays) {
     const int end = std::min(rays, begin + kChunkRays);
@@ -198,7 +199,7 @@ void BounceGather::directional(int bands, const SampleRows& leaving, Job& job, c
   constexpr std::size_t kSumMemory = std::size_t{64} << 20;
   const std::size_t sumSize = OuterProducts(bands, leaving).size();
   const std::size_t tilesAtOnce = std::max<std::size_t>(1, kSumMemory / (sumSize * sizeof(float) * kBakeTile));
-  const HitReader reader(scene_, surface_, leaving);
+  const HitReader reader(scene_, surface_, leaving, false);
   const int rays = direct_.raysPerSample;
   const std::uint64_t seed = direct_.settings.seed;
   std::vector<float> sums;

@@ -30,7 +30,6 @@ Mat3 checkedLinear(const SceneObject& object) {
 }
 
 void checkMesh(const SceneObject& object) {
-  if (!object.mesh) throw GeometryError("object has no mesh", "object '" + object.name + "'", "load one first");
   const TriMesh& mesh = *object.mesh;
   if (mesh.normals.size() != mesh.vertexCount())
     throw GeometryError("mesh needs one normal per vertex", "object '" + object.name + "'", "repair the mesh first");
@@ -85,7 +84,7 @@ Scene flattenScene(std::span<const SceneObject> objects) {
   std::size_t vertices = 0, triangles = 0;
   bool anyUv = false;
   for (const SceneObject& object : objects) {
-    checkMesh(object);
+    if (!object.mesh) throw GeometryError("object has no mesh", "object '" + object.name + "'", "load one first");
     vertices += object.mesh->vertexCount();
     triangles += object.mesh->triangleCount();
     anyUv = anyUv || !object.mesh->uv.empty();
@@ -94,6 +93,8 @@ Scene flattenScene(std::span<const SceneObject> objects) {
   if (vertices >= kMaxVertices || triangles >= kMaxVertices)
     throw GeometryError("scene has " + std::to_string(vertices) + " vertices and " + std::to_string(triangles) +
                             " triangles, too many for one bake", "scene", "simplify or split it");
+
+  for (const SceneObject& object : objects) checkMesh(object);
 
   Scene scene;
   scene.mesh.positions.reserve(vertices);
