@@ -13,6 +13,7 @@ layout(std430, binding = 1) readonly buffer Corners { uint corners[]; };      //
 layout(std430, binding = 2) readonly buffer Positions { float positions[]; };  // three per vertex
 layout(std430, binding = 4) readonly buffer Behind { uint behind[]; };         // sample on the vertex's back
 
+in vec3 vFront, vBehind;  // reflected beyond what the coefficients hold
 uniform vec3 eye;
 
 const uint kNone = 0xffffffffu;
@@ -69,7 +70,7 @@ void main() {
   at *= 3u * uint(kFunctions);
 #endif
 
-  vec3 normal = seenNormal(), exitDiffuse = vec3(0.0), exitGlossy = vec3(0.0);
+  vec3 normal = seenNormal(), exitDiffuse = gl_FrontFacing ? vFront : vBehind, exitGlossy = vec3(0.0);
   float response[kFunctions];
   shEvaluate(normal, response);
 #define DIFFUSE(i, l) if (kCosine[l] != 0.0) exitDiffuse += kCosine[l] * response[i] * COEFFICIENT(i);

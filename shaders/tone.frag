@@ -7,6 +7,7 @@ layout(location = 0) out vec4 colour;
 uniform sampler2DMS manySamples;
 uniform sampler2D oneSample;
 uniform int samples;
+uniform vec3 behind;  // seen where nothing was drawn
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -21,4 +22,5 @@ void main() {
     vec4 value = texelFetch(oneSample, pixel, 0);
     colour = vec4(toneMap(value.rgb), value.a);
   }
+  colour.rgb += (1.0 - colour.a) * behind;
 }

@@ -62,12 +62,12 @@ void appendResponse(const GlossyResponse& response, std::vector<std::uint32_t>& 
   }
 }
 
-// Whether the coefficients can be handed from the vertex to the fragment shader, beside position, normal
-// and object.
+// Whether the coefficients can be handed from the vertex to the fragment shader, beside position, normal,
+// two colours and the object.
 bool fitsBetweenStages(int bands) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_VARYING_COMPONENTS, &most);
-  return 4 * ((3 * shCount(bands) + 3) / 4 + 3) <= most;
+  return 4 * ((3 * shCount(bands) + 3) / 4 + 5) <= most;
 }
 
 int supportedSamples(int wanted) {
@@ -84,7 +84,7 @@ SceneRenderer::SceneRenderer()
       toneProgram_(Program::fromLibrary("fullscreen.vert", "tone.frag")),
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
-  for (Buffer* buffer : {&positions_, &normals_, &irradiance_, &irradianceBehind_, &objects_, &indices_,
+  for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_,
                          &materialBuffer_, &radianceBuffer_, &backSamples_, &responses_})
     *buffer = Buffer::create();
   radianceBuffer_.upload(std::span<const Rgb>(), sizeof(Vec4));  // bound even where the shader does not read it
@@ -117,8 +117,8 @@ void SceneRenderer::setScene(const Scene& scene, std::span<const std::uint32_t> 
 
   meshArray_.floats(0, positions_, 3);
   meshArray_.floats(1, normals_, 3);
-  meshArray_.floats(2, irradiance_, 3);
-  meshArray_.floats(3, irradianceBehind_, 3);
+  meshArray_.floats(2, front_, 3);
+  meshArray_.floats(3, behind_, 3);
   meshArray_.integers(4, objects_);
   meshArray_.indices(indices_);
   checkErrors("upload of the scene");
@@ -129,25 +129,46 @@ void SceneRenderer::setMaterials(std::span<const Material> materials) {
   uploadResponses();
 }
 
+void SceneRenderer::setLight(const SurfaceLight& light) {
+  switch (light.form) {
+    case TransferForm::None: {
+      ShRgb everywhere(light.bands);
+      everywhere.c = light.radiance;
+      return setLight(everywhere);
+    }
+    case TransferForm::Diffuse: return setIrradiance(light.irradiance);
+    case TransferForm::Visibility:
+    case TransferForm::Matrix: return setRadiance(light.bands, light.radiance, light.beyond);
+  }
+}
+
 void SceneRenderer::setIrradiance(std::span<const Rgb> irradiance) {
   expectSamples(irradiance.size(), sampleCount_);
-  std::vector<Rgb> behind(vertexCount_, Rgb(0));
-  for (std::size_t v = 0; v < vertexCount_; ++v)
-    if (back_[v] != kNone) behind[v] = irradiance[back_[v]];
-  irradiance_.upload(irradiance.first(vertexCount_));
-  irradianceBehind_.upload(std::span<const Rgb>(behind));
+  uploadSides(irradiance);
   light_ = Light::Irradiance;
 }
 
-void SceneRenderer::setRadiance(int bands, std::span<const Rgb> coefficients) {
+void SceneRenderer::setRadiance(int bands, std::span<const Rgb> coefficients, std::span<const Rgb> beyond) {
   expectSamples(coefficients.size(), sampleCount_ * std::size_t(shCount(bands)));
+  if (!beyond.empty()) expectSamples(beyond.size(), sampleCount_);
   useRadiance(!twoSided_ && fitsBetweenStages(bands) ? Light::Interpolated : Light::Fetched, bands);
   radianceBuffer_.upload(coefficients, sizeof(Vec4));
+  uploadSides(beyond.empty() ? std::vector<Rgb>(sampleCount_, Rgb(0)) : std::vector<Rgb>(beyond.begin(), beyond.end()));
+}
+
+// One colour per sample as two per vertex: for its front and its back.
+void SceneRenderer::uploadSides(std::span<const Rgb> perSample) {
+  std::vector<Rgb> behind(vertexCount_, Rgb(0));
+  for (std::size_t v = 0; v < vertexCount_; ++v)
+    if (back_[v] != kNone) behind[v] = perSample[back_[v]];
+  front_.upload(perSample.first(vertexCount_));
+  behind_.upload(std::span<const Rgb>(behind));
 }
 
 void SceneRenderer::setLight(const ShRgb& light) {
   useRadiance(Light::Everywhere, light.bands);
   radianceProgram(light_, bands_).set("light", std::span<const Vec3>(light.c));
+  uploadSides(std::vector<Rgb>(sampleCount_, Rgb(0)));
 }
 
 void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
@@ -210,6 +231,7 @@ void SceneRenderer::draw(const Picture& picture, unsigned framebuffer) {
   toneProgram_.set("samples", samples);
   toneProgram_.set("exposure", picture.tone.exposure);
   toneProgram_.set("filmic", picture.tone.curve == ToneCurve::Filmic ? 1 : 0);
+  toneProgram_.set("behind", picture.behind);
   toneProgram_.use();
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);

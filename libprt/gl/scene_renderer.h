@@ -9,6 +9,7 @@
 #include "libprt/gl/program.h"
 #include "libprt/light/environment.h"
 #include "libprt/shade/camera.h"
+#include "libprt/shade/surface_light.h"
 #include "libprt/shade/tonemap.h"
 #include "libprt/transport/scene.h"
 
@@ -32,6 +33,7 @@ struct Picture {
   int height = 0;
   int samples = 4;  ///< per pixel; what the driver cannot do is lowered
   Background background = Background::Environment;
+  Rgb behind{0};  ///< of draw(): what is seen where alpha is 0, as the screen shows it
   float environmentRotation = 0;  ///< radians, counter-clockwise seen from +Y
   float environmentIntensity = 1;
   bool smoothEnvironment = false;  ///< between texels; otherwise piecewise constant, as the map lights
@@ -49,13 +51,15 @@ class SceneRenderer {
   /// Materials alone, [objects]: takes effect in the next picture.
   void setMaterials(std::span<const Material> materials);
 
-  // The light, in the form that transfer has it; the last one given counts.
+  // The light; the last one given counts.
 
+  /// What arrives at the samples of the scene, in any form.
+  void setLight(const SurfaceLight& light);
   /// Irradiance per sample, [S]: every surface is drawn as albedo/pi * irradiance.
   void setIrradiance(std::span<const Rgb> irradiance);
   /// Transferred radiance per sample, [S * bands^2], object frame: diffuse with the pixel's normal, and
-  /// glossy materials. 1 to 10 bands.
-  void setRadiance(int bands, std::span<const Rgb> coefficients);
+  /// glossy materials. `beyond` as SurfaceLight::beyond, [S] or empty. 1 to 10 bands.
+  void setRadiance(int bands, std::span<const Rgb> coefficients, std::span<const Rgb> beyond = {});
   /// The same light everywhere: no shadows. 1 to 10 bands.
   void setLight(const ShRgb& light);
 
@@ -72,6 +76,7 @@ class SceneRenderer {
  private:
   enum class Light { Irradiance, Interpolated, Fetched, Everywhere };
 
+  void uploadSides(std::span<const Rgb> perSample);
   void drawRadiance(const Picture& picture, PixelFormat format, int samples);
   void drawMesh(const Picture& picture);
   void drawBackground(const Picture& picture);
@@ -82,7 +87,7 @@ class SceneRenderer {
   Program irradianceProgram_, backgroundProgram_, toneProgram_;
   std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
   VertexArray meshArray_, emptyArray_;
-  Buffer positions_, normals_, irradiance_, irradianceBehind_, objects_, indices_;
+  Buffer positions_, normals_, front_, behind_, objects_, indices_;
   Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_;
   Texture environment_;
   Framebuffer radiance_;

@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
 #include "libprt/material/glossy_response.h"
+#include "libprt/shade/surface_light.h"
 
 #include <algorithm>
 #include <array>
@@ -95,15 +96,6 @@ struct VertexIrradiance {
   }
 };
 
-/// Irradiance / pi from radiance of a few bands.
-Rgb lambertRadiance(int bands, const Vec3& normal, std::span<const Rgb> incident) {
-  std::array<float, kMaxFunctions> response;
-  lambertResponse(bands, normal, response);
-  Rgb sum(0);
-  for (std::size_t k = 0; k < incident.size(); ++k) sum += response[k] * incident[k];
-  return sum;
-}
-
 /// Interpolates transferred radiance and lets the material respond at the pixel.
 struct PixelResponse {
   const RenderInput& input;
@@ -111,23 +103,23 @@ struct PixelResponse {
   Vec3 eye;
   bool glossy;
   int bands;
-  std::vector<Rgb> transferred;                        // by slot, bands^2 each; the light alone for TransferForm::None
-  std::vector<Rgb> cutOff;                             // by slot; empty where nothing is known of it
+  SurfaceLight arriving;                               // by slot
   std::vector<std::optional<GlossyResponse>> glosses;  // [objects], where glossy
 
   std::span<const Rgb> incident(const Surface& s, std::array<Rgb, kMaxFunctions>& buffer) const {
-    if (input.transfer.form == TransferForm::None) return transferred;
+    if (input.transfer.form == TransferForm::None) return arriving.radiance;
     const std::size_t n = std::size_t(shCount(bands));
     const Rgb* x[3];
-    for (std::size_t i = 0; i < 3; ++i) x[i] = transferred.data() + n * needed.slot[s.sample[i]];
+    for (std::size_t i = 0; i < 3; ++i) x[i] = arriving.radiance.data() + n * needed.slot[s.sample[i]];
     for (std::size_t k = 0; k < n; ++k) buffer[k] = s.weight.x * x[0][k] + s.weight.y * x[1][k] + s.weight.z * x[2][k];
     return {buffer.data(), n};
   }
 
-  /// The part of irradiance / pi that transferred radiance of few bands misses: exact at the samples.
-  Rgb missing(const Surface& s) const {
+  /// See SurfaceLight::beyond: exact at the samples.
+  Rgb beyond(const Surface& s) const {
     Rgb sum(0);
-    for (std::size_t i = 0; i < 3 && !cutOff.empty(); ++i) sum += s.weight[int(i)] * cutOff[needed.slot[s.sample[i]]];
+    for (std::size_t i = 0; i < 3 && !arriving.beyond.empty(); ++i)
+      sum += s.weight[int(i)] * arriving.beyond[needed.slot[s.sample[i]]];
     return sum;
   }
 
@@ -135,7 +127,7 @@ struct PixelResponse {
     std::array<Rgb, kMaxFunctions> buffer;
     const std::span<const Rgb> light = incident(s, buffer);
     const Vec3 normal = normalOf(input, f, s);
-    const Rgb rest = s.material->albedo * missing(s);
+    const Rgb rest = s.material->albedo * beyond(s);
     const std::uint32_t object = input.scene.triangleObject[f.triangle];
     if (glossy && glosses[object]) {
       const Vec3 toEye = eye - interpolate(s, input.scene.mesh.positions);
@@ -207,30 +199,9 @@ void expectFit(const RenderInput& input) {
     refuse("transfer has more than " + std::to_string(kMaxResponseBands) + " bands");
 }
 
-/// What transferred radiance of n bands lacks of the exact irradiance / pi at each needed sample: the
-/// product of light and visibility goes beyond n bands, and the cosine meets it there.
-std::vector<Rgb> cutOffIrradiance(const RenderInput& input, const Needed& needed, std::span<const Rgb> transferred) {
-  if (input.transfer.diffuse.bytes.empty()) return {};
-  const int bands = input.transfer.bands;
-  const std::size_t n = std::size_t(shCount(bands));
-  std::vector<Rgb> rest = irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    const Vec3& normal = input.samples.shadingNormal[needed.samples[i]];
-    rest[i] = rest[i] / kPiF - lambertRadiance(bands, normal, transferred.subspan(i * n, n));
-  }
-  return rest;
-}
-
 PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera, bool glossy) {
-  PixelResponse shader{input, needed, camera.eye, glossy, input.transfer.bands, {}, {}, {}};
-  const std::size_t n = std::size_t(shCount(shader.bands));
-  if (input.transfer.form == TransferForm::None) {
-    shader.transferred = input.light.c;
-    shader.transferred.resize(n, Rgb(0));
-  } else {
-    shader.transferred = transferredRadiance(input.transfer, input.light, needed.samples);
-    shader.cutOff = cutOffIrradiance(input, needed, shader.transferred);
-  }
+  PixelResponse shader{input, needed, camera.eye, glossy, input.transfer.bands, {}, {}};
+  shader.arriving = surfaceLight(input.transfer, input.light, input.samples, needed.samples);
   shader.glosses.resize(input.scene.materials.size());
   for (std::size_t i = 0; glossy && i < shader.glosses.size(); ++i)
     if (input.scene.materials[i].glossy()) shader.glosses[i].emplace(input.scene.materials[i].exponent, shader.bands);

