@@ -124,7 +124,7 @@ void DirectBake::advance(Job& job) {
     work += double(b.tileSize(t)) * target;
     before += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], target);
   }
-  job.begin("direct transfer", work, "rays");
+  job.begin(b.settings.phase, work, "rays");
   job.advance(before);
   while (b.least() < target) b.trace(b.least(), b.nextStop(b.least(), target), job);
   if (b.buried.empty()) b.findBuriedSamples(job);

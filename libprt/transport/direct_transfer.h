@@ -37,6 +37,7 @@ struct DirectSettings {
   /// Bytes that may be spent on remembering what rays hit, for bounces; 0 = none. It changes speed only:
   /// bounces trace again what is not remembered. Hits are traced a little slower than mere shadows.
   std::size_t hitMemory = 0;
+  std::string phase = "direct transfer";  ///< name of the phase that advance() begins
 
   /// Those that decide the product's values.
   bool sameValues(const DirectSettings& o) const {

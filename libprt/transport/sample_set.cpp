@@ -193,6 +193,20 @@ void numberBacks(SampleSet& set, const Scene& scene) {
 
 }  // namespace
 
+SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> indices) {
+  SampleSet some;
+  for (const std::uint32_t s : indices) {
+    if (s >= samples.size())
+      throw ValueError("there is no sample " + std::to_string(s), "samples", "choose below " + std::to_string(samples.size()));
+    some.origin.push_back(samples.origin[s]);
+    some.geometricNormal.push_back(samples.geometricNormal[s]);
+    some.shadingNormal.push_back(samples.shadingNormal[s]);
+    some.triangle.push_back(samples.triangle[s]);
+    some.barycentric.push_back(samples.barycentric[s]);
+  }
+  return some;
+}
+
 SampleSet samplesAtVertices(const Scene& scene) {
   const TriMesh& mesh = scene.mesh;
   SampleSet set;

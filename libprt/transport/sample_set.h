@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -27,6 +28,10 @@ struct SampleSet {
 
   std::size_t size() const { return origin.size(); }
 };
+
+/// Some samples of a set, in the given order; no longer counted as vertices. Throws ValueError when an index is
+/// out of range.
+SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> indices);
 
 /// One sample per vertex of the scene's mesh, in order; then, for each vertex of an object whose material
 /// is two-sided, one for its back, with both normals turned over (`back` is empty when there is none).

@@ -26,20 +26,12 @@ struct BakeInput {
   explicit BakeInput(TriMesh mesh, Rgb albedo = Rgb(0.5f)) : BakeInput(sceneOf(std::move(mesh), lambert(albedo))) {}
 
   /// Keeps some of the samples only, no longer as vertices.
-  BakeInput only(std::span<const std::size_t> kept) const {
+  BakeInput only(std::span<const std::uint32_t> kept) const {
     BakeInput input = *this;
-    SampleSet few;
-    for (const std::size_t s : kept) {
-      few.origin.push_back(samples->origin[s]);
-      few.geometricNormal.push_back(samples->geometricNormal[s]);
-      few.shadingNormal.push_back(samples->shadingNormal[s]);
-      few.triangle.push_back(samples->triangle[s]);
-      few.barycentric.push_back(samples->barycentric[s]);
-    }
-    input.samples = std::make_shared<SampleSet>(few);
+    input.samples = std::make_shared<SampleSet>(someSamples(*samples, kept));
     return input;
   }
-  BakeInput only(std::size_t kept) const { return only({&kept, 1}); }
+  BakeInput only(std::uint32_t kept) const { return only({&kept, 1}); }
 
   Transfer transfer(const TransferSettings& settings) const {
     Job job;
