@@ -25,13 +25,18 @@ constexpr std::array<TypeInfo, 8> kTypes{{{DType::f16, "f16", 2},
 
 }  // namespace
 
-std::size_t sizeOf(DType type) { return kTypes[std::size_t(type)].bytes; }
-std::string toString(DType type) { return kTypes[std::size_t(type)].name; }
+std::size_t sizeOf(DType type) {
+  return kTypes[std::size_t(type)].bytes;
+}
+std::string toString(DType type) {
+  return kTypes[std::size_t(type)].name;
+}
 
 DType dtypeFromString(const std::string& name) {
   for (const TypeInfo& info : kTypes)
     if (name == info.name) return info.type;
-  throw ValueError("unknown element type '" + name + "'", "array", "use f16, f32, f64, u8, u16, u32, i32 or i64");
+  throw ValueError("unknown element type '" + name + "'", "array",
+                   "use f16, f32, f64, u8, u16, u32, i32 or i64");
 }
 
 }  // namespace prt

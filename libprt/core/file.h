@@ -14,8 +14,8 @@ class Job;
 
 /// Contents of a file. Throws FileError when it is missing, a folder, unreadable, or larger than `maxBytes`.
 /// A job, when given, can cancel a long read.
-std::vector<std::byte> readFile(const std::filesystem::path& path, std::size_t maxBytes = std::size_t(4) << 30,
-                                Job* job = nullptr);
+std::vector<std::byte> readFile(const std::filesystem::path& path,
+                                std::size_t maxBytes = std::size_t(4) << 30, Job* job = nullptr);
 
 /// Replaces a file in one step: write to path(), which lies beside the target, then commit(). Until then,
 /// and whatever happens before, the target stays as it was; without commit() the temporary file is removed.

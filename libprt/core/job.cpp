@@ -8,7 +8,8 @@ namespace prt {
 
 Job::Job(Listener listener, double listenerHz)
     : listener_(std::move(listener)),
-      minInterval_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / listenerHz))) {}
+      minInterval_(
+          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / listenerHz))) {}
 
 void Job::begin(std::string phase, double total, std::string unit) {
   {
@@ -56,7 +57,9 @@ void Job::cancel() noexcept {
   resumed_.notify_all();
 }
 
-void Job::pause() { paused_ = true; }
+void Job::pause() {
+  paused_ = true;
+}
 
 void Job::resume() {
   paused_ = false;

@@ -60,8 +60,8 @@ class Job {
   using Clock = std::chrono::steady_clock;
   Listener listener_;
   Clock::duration minInterval_{};
-  mutable std::mutex mutex_;      // guards phase_, unit_, begun_, lastNotified_
-  std::mutex listenerMutex_;      // one listener call at a time
+  mutable std::mutex mutex_;  // guards phase_, unit_, begun_, lastNotified_
+  std::mutex listenerMutex_;  // one listener call at a time
   std::condition_variable resumed_;
   std::string phase_, unit_;
   std::atomic<double> done_{0}, total_{0};

@@ -1,5 +1,5 @@
-#include "libprt/core/error.h"
 #include "libprt/core/job.h"
+#include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
 
 #include <gtest/gtest.h>
@@ -20,9 +20,10 @@ TEST(Job, CountsWorkFromManyThreads) {
 
 TEST(Job, CancelEndsALoopWithCancelled) {
   Job job;
-  EXPECT_THROW(parallelFor(job, 0, 1000, 1, [&](std::size_t begin, std::size_t) {
-                 if (begin == 10) job.cancel();
-               }),
+  EXPECT_THROW(parallelFor(job, 0, 1000, 1,
+                           [&](std::size_t begin, std::size_t) {
+                             if (begin == 10) job.cancel();
+                           }),
                Cancelled);
 }
 

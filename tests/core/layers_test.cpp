@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> kLayers{{"core", 0}, {"basis", 1}, {"light", 2}, {"material", 2}, {"mesh", 3},
-                                         {"transport", 4}, {"meso", 5}, {"synthesis", 6}, {"shade", 7},
-                                         {"project", 8}, {"study", 9}, {"gl", 8}};
+const std::map<std::string, int> kLayers{{"core", 0},  {"basis", 1},     {"light", 2}, {"material", 2},
+                                         {"mesh", 3},  {"transport", 4}, {"meso", 5},  {"synthesis", 6},
+                                         {"shade", 7}, {"project", 8},   {"study", 9}, {"gl", 8}};
 
 /// Each "file -> folder" edge that goes against the flow.
 std::vector<std::string> wrongIncludes(const fs::path& libprt) {
@@ -28,20 +28,24 @@ std::vector<std::string> wrongIncludes(const fs::path& libprt) {
     std::smatch match;
     for (std::string line; std::getline(file, line);) {
       if (!std::regex_search(line, match, include) || match[1] == own) continue;
-      if (kLayers.at(match[1]) >= kLayers.at(own)) wrong.push_back(entry.path().string() + " -> " + match[1].str());
+      if (kLayers.at(match[1]) >= kLayers.at(own))
+        wrong.push_back(entry.path().string() + " -> " + match[1].str());
     }
   }
   return wrong;
 }
 
-TEST(Layers, IncludesFollowTheFlow) { EXPECT_EQ(wrongIncludes(fs::path(PRT_SOURCE_DIR) / "libprt"), std::vector<std::string>{}); }
+TEST(Layers, IncludesFollowTheFlow) {
+  EXPECT_EQ(wrongIncludes(fs::path(PRT_SOURCE_DIR) / "libprt"), std::vector<std::string>{});
+}
 
 TEST(Layers, LibprtKnowsNothingOfQt) {
   const std::regex qt(R"re(^\s*#include <Q)re");
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(PRT_SOURCE_DIR) / "libprt")) {
     if (!entry.is_regular_file()) continue;
     std::ifstream file(entry.path());
-    for (std::string line; std::getline(file, line);) EXPECT_FALSE(std::regex_search(line, qt)) << entry.path();
+    for (std::string line; std::getline(file, line);)
+      EXPECT_FALSE(std::regex_search(line, qt)) << entry.path();
   }
 }
 
