@@ -122,7 +122,7 @@ class Diagnosis {
       area += cross(a, b);
       longest2 = std::max(longest2, dot(b - a, b - a));
     }
-    return length(area) <= 1e-10 * longest2;
+    return !(length(area) > 1e-10 * longest2);  // also when the numbers overflow
   }
 
   /// Faces over the same positions: sorted corner lists, grouped by hash, compared in full.

@@ -129,7 +129,7 @@ class Repair {
     }
     const DVec3 a(positions_[vertices.x]), b(positions_[vertices.y]), c(positions_[vertices.z]);
     const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-    if (length(cross(b - a, c - a)) <= 1e-10 * longest2) {
+    if (!(length(cross(b - a, c - a)) > 1e-10 * longest2)) {  // nor what overflows
       ++report_.droppedDegenerate;
       return;
     }

@@ -194,6 +194,19 @@ TEST(Repair, DropsWhatNoRendererCanUse) {
   EXPECT_TRUE(result.report.after.clean());
 }
 
+TEST(Repair, DropsDegenerateFacesWhoseNumbersOverflow) {
+  PolygonSoup soup = withoutNormals(makePlane({.columns = 1, .rows = 1}));
+  soup.positions.push_back({0, 0, -1e39});  // finite as a double only
+  soup.positions.push_back({0, 0, 1e300});
+  for (std::uint32_t far : {4u, 5u}) {
+    soup.cornerVertex.insert(soup.cornerVertex.end(), {0, 0, far});
+    soup.endFace();
+  }
+  const RepairedMesh result = repaired(soup);
+  EXPECT_EQ(result.mesh.vertexCount(), 4u);
+  EXPECT_EQ(result.report.droppedDegenerate, 2u);
+}
+
 TEST(Repair, CutsPolygonsUp) {
   PolygonSoup soup;
   soup.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0.5, 0}, {0, 2, 0}};
