@@ -78,7 +78,7 @@ PathTracer::Vertex PathTracer::vertexAt(const Hit& hit, const Vec3& direction, b
   v.geometricNormal = side * face;
   v.frame = frameFromNormal(size > 1e-6f ? side / size * smooth : side * face);
   v.out = lifted(v.frame.toLocal(-direction));
-  v.origin = offsetOrigin(p0 + b.x * e1 + b.y * e2, v.geometricNormal);
+  v.origin = offsetOrigin(p0, mesh.positions[t.y], mesh.positions[t.z], b, v.geometricNormal);
   return v;
 }
 

@@ -226,6 +226,21 @@ std::uint64_t RayScene::refusedRays() const { return impl_->refused.load(std::me
 
 float RayScene::size() const { return impl_->size; }
 
+Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& barycentric, const Vec3& n) {
+  constexpr float kRounding = 0x1p-24f;
+  const float first = 1 - barycentric.x - barycentric.y;
+  const Vec3 p = first * a + barycentric.x * b + barycentric.y * c;
+  const Vec3 size = std::abs(first) * abs(a) + barycentric.x * abs(b) + barycentric.y * abs(c);
+  // A plane along an axis has no rounding error; the last term still takes the point off it.
+  const Vec3 most = max(max(abs(a), abs(b)), abs(c));
+  const float distance = 16 * kRounding * dot(abs(n), size) + 1e-9f * std::max({most.x, most.y, most.z});
+  Vec3 moved = p + distance * n;
+  for (int axis = 0; axis < 3; ++axis)  // adding may have rounded to nothing
+    if (moved[axis] == p[axis] && std::abs(n[axis]) * distance > 0.25f * kRounding * size[axis])
+      moved[axis] = std::nextafter(p[axis], std::copysign(std::numeric_limits<float>::infinity(), n[axis]));
+  return moved;
+}
+
 Vec3 offsetOrigin(const Vec3& p, const Vec3& n, float sceneSize) {
   constexpr float kNearZero = 1.0f / 32, kStep = 1.0f / 65536, kUlps = 256;
   Vec3 moved;

@@ -37,6 +37,11 @@ struct Hit {
 /// small scenes are left too far behind and large ones are not left.
 Vec3 offsetOrigin(const Vec3& p, const Vec3& n, float sceneSize = 1);
 
+/// The same for a point at `barycentric` of a triangle with corners a, b, c, by the least that float rounding
+/// allows there: 16 roundings of the sum that made the point, along the normal (Pharr, Jakob and Humphreys,
+/// "Physically Based Rendering", section 6.8). A path that has entered a narrow crease stays in it.
+Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& barycentric, const Vec3& n);
+
 /// An Embree scene built for robustness over speed. Thread-safe once built. A ray is refused when a
 /// coordinate is not finite or beyond 1e18, its direction is zero, its tNear is negative or NaN, or
 /// its tFar is NaN; it counts as "hit nothing". The one-origin calls agree with each other to the bit

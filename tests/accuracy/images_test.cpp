@@ -58,7 +58,7 @@ TEST_P(InterpolatedPictures, StayWithinTheInterpolationFloor) {
   if (!GetParam().always && !fullRun()) GTEST_SKIP() << "part of the full run: set PRT_FULL=1";
   Job job;
   const Model model = test::loadModel(GetParam().mesh);
-  const int size = fullRun() ? 512 : 192;
+  const int size = fullRun() ? 384 : 192;
   const Camera camera = frameBox(model.scene->mesh.bounds());
   const FragmentImage view = rasterize(model.scene->mesh, camera, size, size, 4, job);
   const std::vector<std::uint32_t> visible = visibleVertices(model, view);
@@ -74,7 +74,7 @@ TEST_P(InterpolatedPictures, StayWithinTheInterpolationFloor) {
       PathOptions options;
       options.bounces = bounces;
       const std::vector<Rgb> traced =
-          irradianceAtSamples(tracer, *model.samples, visible, fullRun() ? 4096 : 1024, options, job).mean;
+          irradianceAtSamples(tracer, *model.samples, visible, fullRun() ? 2048 : 1024, options, job).mean;
       std::vector<Rgb> atVertices(model.samples->size(), Rgb(0));
       for (std::size_t i = 0; i < visible.size(); ++i) atVertices[visible[i]] = traced[i];
 

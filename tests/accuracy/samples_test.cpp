@@ -46,7 +46,7 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
   if (!GetParam().always && !fullRun()) GTEST_SKIP() << "part of the full run: set PRT_FULL=1";
   Job job;
   const Model model = test::loadModel(GetParam().mesh);
-  const std::vector<std::uint32_t> indices = test::pick(model.scene->mesh.vertexCount(), fullRun() ? 1500 : 300, 7);
+  const std::vector<std::uint32_t> indices = test::pick(model.scene->mesh.vertexCount(), fullRun() ? 400 : 300, 7);
   const auto some = std::make_shared<SampleSet>(test::subset(*model.samples, indices));
 
   for (const int bounces : {0, 3}) {
@@ -68,7 +68,7 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
       if (!fullRun() && probe != kProbes[0] && probe != kProbes[2]) continue;
       const Light light = test::loadLight(probe);
       const std::vector<Rgb> baked = irradiance(transfer, light.coefficients, some->shadingNormal);
-      const NoiseFreeError e = measure(model, light, baked, indices, bounces, fullRun() ? 16384 : 2048);
+      const NoiseFreeError e = measure(model, light, baked, indices, bounces, fullRun() ? 4096 : 2048);
       test::report(model.name + ", " + light.name + ", " + std::to_string(bounces) + " bounces, at samples", e);
       EXPECT_LT(e.relative(), kBound) << model.name << " " << probe << " " << bounces;
     }

@@ -183,5 +183,31 @@ TEST(RayScene, OffsetOriginsLeaveTheirSurface) {
     }
 }
 
+TEST(RayScene, TightOffsetsLeaveTheirSurfaceAndStayClose) {
+  for (const float scale : {1e-4f, 0.15f, 1.0f, 1e4f})
+    for (const float away : {0.0f, 3.0f, 1000.0f}) {
+      const Vec3 centre = scale * away * Vec3(1, -0.7f, 0.3f);
+      const Scene scene = sceneOf(test::sphere(24, 48, scale, centre));
+      const RayScene rays(scene);
+      int wrong = 0;
+      for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); ++t) {
+        const UVec3& c = scene.mesh.triangles[t];
+        const Vec3 corner[3] = {scene.mesh.positions[c.x], scene.mesh.positions[c.y], scene.mesh.positions[c.z]};
+        const Vec3 n = normalize(scene.mesh.areaNormal(t));
+        for (std::uint64_t i = 0; i < 32; ++i) {
+          Vec2 b(hashUniform(7, i, 0), hashUniform(7, i, 1));
+          if (b.x + b.y > 1) b = Vec2(1) - b;
+          const Vec3 p = (1 - b.x - b.y) * corner[0] + b.x * corner[1] + b.y * corner[2];
+          const Vec3 origin = offsetOrigin(corner[0], corner[1], corner[2], b, n);
+          EXPECT_LT(length(origin - p), 3e-6f * (scale + length(p)));
+          Vec3 d = randomDirection(i, t);
+          if (dot(d, n) < 0) d = -d;
+          if (dot(d, n) > 1e-3f) wrong += rays.occluded({origin, 0, d});
+        }
+      }
+      EXPECT_EQ(wrong, 0) << scale << " " << away;
+    }
+}
+
 }  // namespace
 }  // namespace prt
