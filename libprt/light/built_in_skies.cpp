@@ -33,16 +33,14 @@ Rgb tint(const Rgb& colour) {
   return colour / luminance(colour);
 }
 
-/// Sky colour of luminance 1: deep blue overhead, pale where the path through the air is long or near the
-/// sun.
+/// Sky colour of luminance 1: deep blue, but pale where the path through the air is long and near the sun.
 Rgb skyTint(double sinElevation, double sunAngle) {
   const float pale =
       float(std::clamp(0.15 + 0.75 * std::exp(-4 * sinElevation) + 0.5 * std::exp(-5 * sunAngle), 0.0, 1.0));
   return tint(mix(Rgb(0.25f, 0.45f, 1.0f), Rgb(0.85f, 0.92f, 1.0f), pale));
 }
 
-/// Sunlight of luminance 1 after `mass` air masses: optical depths of air and thin haze at 610, 550 and 465
-/// nm.
+/// Sunlight of luminance 1 after `mass` air masses: optical depths of air and thin haze for R, G and B.
 Rgb sunTint(double mass) {
   const float m = float(mass);
   return tint(Rgb(std::exp(-0.11f * m), std::exp(-0.15f * m), std::exp(-0.26f * m)));
@@ -57,8 +55,7 @@ Rgb levelIrradiance(const EnvironmentMap& map) {
   return Rgb(sum);
 }
 
-/// Adds a disc of light of the given irradiance (facing it): each texel gets the share of the disc that it
-/// holds.
+/// Adds a disc of light of this irradiance (facing it): each texel gets the share of the disc it holds.
 void addDisc(Image& image, const DVec3& direction, double halfAngle, const Rgb& irradiance) {
   const MapGeometry geometry(EnvironmentMapping::LatLong, image.width, image.height);
   const Frame frame = frameFromNormal(Vec3(direction));

@@ -1,6 +1,6 @@
 #pragma once
-// Light from far away in all directions, as an image: its pixels, its mapping, its lookups. Files:
-// environment_io.h.
+// Light from far away in all directions, as an image: its pixels, its mapping, its lookups.
+// Reading files: environment_io.h.
 //
 // The map is piecewise constant: every direction inside a texel has the radiance of that texel's pixel.
 // Lookups, projection (projection.h) and the path tracer's sampler (light_sampler.h) all treat the very
@@ -20,10 +20,9 @@ struct EnvironmentReport {
   std::string source;  ///< file or generator
   EnvironmentMapping mapping = EnvironmentMapping::LatLong;
   int width = 0, height = 0;
-  std::size_t covered = 0;   ///< pixels that hold light
-  std::size_t negative = 0;  ///< pixels with a negative channel, set to 0
-  std::size_t nonFinite =
-      0;  ///< pixels with NaN (set to 0), infinity or more than kMaxRadiance (set to 65504)
+  std::size_t covered = 0;    ///< pixels that hold light
+  std::size_t negative = 0;   ///< pixels with a negative channel, set to 0
+  std::size_t nonFinite = 0;  ///< with NaN (set to 0), infinity or more than kMaxRadiance (set to 65504)
   std::size_t atHalfMax = 0;  ///< pixels with a channel at 65504, the largest half: the light may be clipped
   std::size_t labels = 0;     ///< pixels outside the mapping that held something (labels) and are masked
   float smallest = 0;         ///< smallest positive luminance

@@ -170,8 +170,7 @@ bool MapGeometry::covers(int x, int y) const {
 }
 
 Vec2 MapGeometry::toImage(const Vec3& d) const {
-  // Up to the last float below the edge, so that the pixel index is valid, whatever the direction (NaN gives
-  // 0).
+  // Up to the last float below the edge: the pixel index is valid whatever the direction; NaN gives 0.
   const auto below = [](float t, int size) {
     return std::min(std::max(0.0f, t), std::nextafter(float(size), 0.0f));
   };

@@ -43,10 +43,12 @@ template <class AddRow>
 Coefficients sumRows(int rows, int bands, Job& job, AddRow&& addRow) {
   const std::size_t tiles = (std::size_t(rows) + kRowsPerTile - 1) / kRowsPerTile;
   std::vector<Coefficients> partial(tiles, Coefficients(std::size_t(shCount(bands)), DRgb(0)));
+  job.begin("projecting the environment", rows, "rows");
   parallelFor(job, 0, std::size_t(rows), kRowsPerTile, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       job.checkCancelled();
       addRow(int(row), partial[begin / kRowsPerTile]);
+      job.advance(1);
     }
   });
   for (std::size_t t = 1; t < tiles; ++t)

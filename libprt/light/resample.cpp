@@ -67,33 +67,36 @@ std::uint32_t pixelIndex(const MapGeometry& g, const Vec2& p) {
   return std::uint32_t(p.y) * std::uint32_t(g.width()) + std::uint32_t(p.x);
 }
 
-/// Estimates the overlaps of all texels with all cells of a lat-long map: each cell is cut into equal parts,
-/// a few per texel, and the texel at each part's centre takes it.
+/// Overlaps of cell (x, y) of a lat-long map: cut into parts x parts pieces of equal solid angle, each taken
+/// by the texel at its centre.
+void addCell(const MapGeometry& texels, const MapGeometry& cells, int x, int y, int parts,
+             std::vector<Overlap>& overlaps) {
+  const std::uint32_t cell = pixelIndex(cells, Vec2(x, y));
+  const double top = std::cos(kPi * y / cells.height()), bottom = std::cos(kPi * (y + 1) / cells.height());
+  const float area = float(cells.solidAngle(x, y) / (parts * parts));
+  const auto first = std::ptrdiff_t(overlaps.size());
+  for (int part = 0; part < parts * parts; ++part) {
+    const double cosine = glm::mix(top, bottom, (part / parts + 0.5) / parts);
+    const double sine = std::sqrt(1 - cosine * cosine);
+    const double azimuth = ((x + (part % parts + 0.5) / parts) / cells.width() - 0.5) * 2 * kPi;
+    const Vec3 d(float(sine * std::sin(azimuth)), float(cosine), float(-sine * std::cos(azimuth)));
+    const std::uint32_t texel = pixelIndex(texels, texels.toImage(d));
+    const auto known = std::find_if(overlaps.begin() + first, overlaps.end(),
+                                    [&](const Overlap& o) { return o.texel == texel; });
+    if (known != overlaps.end())
+      known->area += area;
+    else
+      overlaps.push_back({texel, cell, area});
+  }
+}
+
+/// Overlaps of all texels with all cells, found at a few points per texel.
 std::vector<Overlap> findOverlaps(const MapGeometry& texels, const MapGeometry& cells) {
   const int parts = std::clamp(int(std::ceil(4 * cells.texelAngle() / texels.texelAngle())), 3, 64);
   std::vector<std::vector<Overlap>> rows(std::size_t(cells.height()));
   Job job;
   parallelFor(job, 0, rows.size(), 1, [&](std::size_t y, std::size_t) {
-    const double top = std::cos(kPi * double(y) / cells.height()),
-                 bottom = std::cos(kPi * double(y + 1) / cells.height());
-    const float area = float(cells.solidAngle(0, int(y)) / (parts * parts));
-    for (int x = 0; x < cells.width(); ++x) {
-      const std::size_t first = rows[y].size();
-      for (int part = 0; part < parts * parts; ++part) {
-        const double cosine = glm::mix(top, bottom, (part / parts + 0.5) / parts),
-                     sine = std::sqrt(1 - cosine * cosine);
-        const double azimuth = ((x + (part % parts + 0.5) / parts) / cells.width() - 0.5) * 2 * kPi;
-        const Vec3 d(float(sine * std::sin(azimuth)), float(cosine), float(-sine * std::cos(azimuth)));
-        const std::uint32_t texel = pixelIndex(texels, texels.toImage(d));
-        const auto same = std::find_if(rows[y].begin() + std::ptrdiff_t(first), rows[y].end(),
-                                       [&](const Overlap& o) { return o.texel == texel; });
-        if (same != rows[y].end())
-          same->area += area;
-        else
-          rows[y].push_back(
-              {texel, std::uint32_t(y) * std::uint32_t(cells.width()) + std::uint32_t(x), area});
-      }
-    }
+    for (int x = 0; x < cells.width(); ++x) addCell(texels, cells, x, int(y), parts, rows[y]);
   });
   std::vector<Overlap> all;
   for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
