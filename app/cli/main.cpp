@@ -15,7 +15,7 @@ namespace {
 constexpr int kDone = 0, kFailed = 1, kUsage = 2, kCancelled = 130;
 
 /// In the order of their use; --help lists them so.
-constexpr void (*kCommands[])(CLI::App&, Action&) = {addBake, addCompare, addInfo, addVerify};
+constexpr void (*kCommands[])(CLI::App&, Action&) = {addBake, addReference, addCompare, addInfo, addVerify, addLight};
 
 void addGlobalOptions(CLI::App& app, Session& session) {
   app.add_flag("--json", session.json, "Print the result as JSON on stdout")->group("Global options");
@@ -26,8 +26,9 @@ void addGlobalOptions(CLI::App& app, Session& session) {
       ->check(CLI::Range(std::uint64_t(0), std::uint64_t(1) << 53))
       ->group("Global options");
   app.add_flag("-q,--quiet", session.quiet, "No progress, no text; errors only")->group("Global options");
-  app.add_option("--log-level", session.logLevel, "trace, debug, info, warn, error or off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+  app.add_option("--log-level", session.logLevel, "debug, info, warning, error or off")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
+      ->capture_default_str()
       ->group("Global options");
 }
 

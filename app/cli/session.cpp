@@ -1,6 +1,7 @@
 #include "app/cli/session.h"
 
 #include "app/cli/progress_bar.h"
+#include "libprt/core/log.h"
 #include "libprt/core/parallel.h"
 
 #include <fmt/format.h>
@@ -11,16 +12,15 @@ namespace prt::cli {
 
 void Session::start() {
   setThreadCount(threads);
+  setLogHandler(quiet ? LogLevel::Error : logLevelFromString(logLevel), [](LogLevel level, std::string_view message) {
+    fmt::print(stderr, "{}prt: {}: {}\n", isatty(STDERR_FILENO) ? "\r\x1b[K" : "", toString(level), message);
+  });
   const bool watched = !quiet && isatty(STDERR_FILENO) != 0;
   job_ = watched ? std::make_unique<Job>(ProgressBar(), 10) : std::make_unique<Job>();
 }
 
 void Session::say(const std::string& line) const {
   if (!json && !quiet) fmt::print("{}\n", line);
-}
-
-void Session::warn(const std::string& line) const {
-  if (!quiet && logLevel != "error" && logLevel != "off") fmt::print(stderr, "prt: warning: {}\n", line);
 }
 
 void Session::result(const nlohmann::json& object) const {

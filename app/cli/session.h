@@ -26,7 +26,7 @@ class Session {
   bool quiet = false;
   int threads = 0;
   std::optional<std::uint64_t> seed;
-  std::string logLevel = "warn";
+  std::string logLevel = "warning";
 
   /// Shows a progress bar on a terminal, is cancelled by Ctrl-C.
   Job& job() { return *job_; }
@@ -34,8 +34,6 @@ class Session {
 
   /// A line for people; not with --quiet or --json.
   void say(const std::string& line) const;
-  /// Something that the user should know though all went well: on stderr.
-  void warn(const std::string& line) const;
   /// The result for programs; printed with --json only.
   void result(const nlohmann::json& object) const;
 

@@ -1,8 +1,11 @@
 #include "libprt/project/lights.h"
 
+#include "libprt/basis/sh_window.h"
+#include "libprt/basis/sh_zonal.h"
 #include "libprt/core/error.h"
 #include "libprt/light/built_in_skies.h"
 #include "libprt/light/environment_io.h"
+#include "libprt/light/projection.h"
 #include "libprt/project/source_hash.h"
 
 #include <optional>
@@ -54,6 +57,25 @@ LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem
   }
   validate(rig);
   return rig;
+}
+
+ShRgb windowed(const ShRgb& light, const std::string& window) {
+  if (window == "none") return light;
+  if (window == "dering") return dering(light).light;
+  ShRgb out = light;
+  if (window == "hann") scaleBands(hannWindow(light.bands), out);
+  else if (window == "lanczos") scaleBands(lanczosWindow(light.bands), out);
+  else if (window == "fejer") scaleBands(fejerWindow(light.bands), out);
+  else throw ValueError("there is no window '" + window + "'", "method.window", "use none, hann, lanczos, fejer or dering");
+  return out;
+}
+
+ShRgb lightFor(const LightRig& lights, int bands, const MethodRecipe& method) {
+  return windowed(projectLights(lights, bands), method.window);
+}
+
+ShRgb lightFor(const LightRig& lights, const ShRgb& environment, const MethodRecipe& method) {
+  return windowed(projectLights(lights, environment), method.window);
 }
 
 }  // namespace prt

@@ -27,4 +27,13 @@ class EnvironmentCache {
 /// All lights together. Throws ValueError when more than one environment is lit (intensity above 0).
 LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder, EnvironmentCache& cache);
 
+/// Light damped against ringing: "none", "hann", "lanczos", "fejer", or "dering" for as little of the latter
+/// as leaves no negative light. Throws ValueError for other names.
+ShRgb windowed(const ShRgb& light, const std::string& window);
+
+/// Light in the bands of a transfer product, windowed as the method says.
+ShRgb lightFor(const LightRig& lights, int bands, const MethodRecipe& method);
+/// The same with the environment's projection at hand (projectEnvironment of as many bands).
+ShRgb lightFor(const LightRig& lights, const ShRgb& environment, const MethodRecipe& method);
+
 }  // namespace prt

@@ -54,9 +54,11 @@ fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.p
 void copyFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::copy_file(from, to, error);
+  if (!error) return;
+  removeWork(to);
   if (error == std::errc::no_space_on_device)
     throw ResourceError("the disk is full", to.string(), "free some space and run again; what was saved is unchanged");
-  if (error) throw FileError("cannot be written: " + error.message(), to.string(), "check the permissions of its folder");
+  throw FileError("cannot be written: " + error.message(), to.string(), "check the space on the disk and the permissions of its folder");
 }
 
 std::string checksumIn(Database& database) { return readProjectRow(database).checksum; }
