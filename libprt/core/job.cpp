@@ -11,12 +11,12 @@ Job::Job(Listener listener, double listenerHz)
       minInterval_(
           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / listenerHz))) {}
 
-void Job::begin(std::string phase, double total, std::string unit) {
+void Job::begin(std::string phase, double total, std::string unit, double done) {
   {
     std::lock_guard lock(mutex_);
     phase_ = std::move(phase);
     unit_ = std::move(unit);
-    done_ = 0;
+    done_ = before_ = done;
     total_ = total;
     begun_ = Clock::now();
   }
@@ -40,7 +40,7 @@ void Job::advance(double amount) {
 Progress Job::snapshot() const {
   std::lock_guard lock(mutex_);
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-  return {phase_, done_.load(), total_.load(), unit_, seconds};
+  return {phase_, done_.load(), total_.load(), unit_, seconds, before_.load()};
 }
 
 void Job::checkCancelled() {

@@ -18,11 +18,12 @@ struct Progress {
   double total = 0;  ///< 0 = not known
   std::string unit;
   double seconds = 0;  ///< since the phase began, pauses included
+  double before = 0;   ///< of `done`, what was there when the phase began
 
   double fraction() const { return total > 0 ? done / total : 0; }
-  double rate() const { return seconds > 0 ? done / seconds : 0; }
+  double rate() const { return seconds > 0 ? (done - before) / seconds : 0; }
   /// Seconds left at the rate so far; negative when it is not known.
-  double secondsLeft() const { return done > 0 && total > 0 ? (total - done) / done * seconds : -1; }
+  double secondsLeft() const { return done > before && total > 0 ? (total - done) / (done - before) * seconds : -1; }
 };
 
 class Job {
@@ -36,8 +37,8 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  /// Starts a phase of `total` units of work; ends the one before.
-  void begin(std::string phase, double total, std::string unit = {});
+  /// Starts a phase of `total` units of work; ends the one before. `done` of them were done earlier.
+  void begin(std::string phase, double total, std::string unit = {}, double done = 0);
   /// Sets the work done in this phase. Thread-safe.
   void progress(double done, double total);
   /// Adds to the work done in this phase. Thread-safe, cheap enough to call once a tile.
@@ -64,7 +65,7 @@ class Job {
   std::mutex listenerMutex_;  // one listener call at a time
   std::condition_variable resumed_;
   std::string phase_, unit_;
-  std::atomic<double> done_{0}, total_{0};
+  std::atomic<double> done_{0}, total_{0}, before_{0};
   Clock::time_point begun_ = Clock::now();
   Clock::time_point lastNotified_{};
   std::atomic<bool> cancelled_{false}, paused_{false};

@@ -86,12 +86,16 @@ DirectSums::DirectSums(std::shared_ptr<const Scene> sceneOf, std::shared_ptr<con
 int DirectSums::least() const { return int(*std::min_element(tileRays.begin(), tileRays.end())); }
 int DirectSums::most() const { return int(*std::max_element(tileRays.begin(), tileRays.end())); }
 
-void DirectSums::trace(int from, int to, Job& job) {
+bool DirectSums::trace(int from, int to, Job& job, const std::function<bool()>& rest) {
   const RayTable table(spread, std::max(bands, 2), from, to, settings.seed, job);
   accumulateDirections(table);
+  std::atomic<bool> resting{false};
   parallelFor(job, 0, tileRays.size(), 1, [&](std::size_t tile, std::size_t) {
-    if (int(tileRays[tile]) == from) traceTile(table, tile, job);
+    if (int(tileRays[tile]) != from) return;
+    if (!resting && rest && rest()) resting = true;
+    if (!resting) traceTile(table, tile, job);
   });
+  return !resting;
 }
 
 void DirectSums::accumulateDirections(const RayTable& table) {

@@ -7,6 +7,7 @@
 #include "libprt/transport/hit_blocks.h"
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -42,8 +43,9 @@ struct DirectSums {
   int least() const;
   int most() const;
 
-  /// Rays [from, to) of all tiles that stand at `from`. A tile is done as a whole or not at all.
-  void trace(int from, int to, Job& job);
+  /// Rays [from, to) of all tiles that stand at `from`. A tile is done as a whole or not at all. Returns
+  /// false, with tiles left to do, once `rest` says true.
+  bool trace(int from, int to, Job& job, const std::function<bool()>& rest);
   /// Decides `buried`; at least the first level's rays must be there.
   void findBuriedSamples(Job& job);
 

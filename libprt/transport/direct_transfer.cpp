@@ -115,18 +115,15 @@ DirectBake::~DirectBake() = default;
 int DirectBake::level() const { return impl_->levelsDone(); }
 int DirectBake::levels() const { return int(impl_->ends.size()); }
 
-void DirectBake::advance(Job& job) {
+void DirectBake::advance(Job& job, const std::function<bool()>& rest) {
   Impl& b = *impl_;
   if (done()) return;
   const int target = b.ends[std::size_t(level())];
-  double work = 0, before = 0;
-  for (std::size_t t = 0; t < b.tileRays.size(); ++t) {
-    work += double(b.tileSize(t)) * target;
-    before += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], target);
-  }
-  job.begin(b.settings.phase, work, "rays");
-  job.advance(before);
-  while (b.least() < target) b.trace(b.least(), b.nextStop(b.least(), target), job);
+  double done = 0;
+  for (std::size_t t = 0; t < b.tileRays.size(); ++t) done += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], b.ends.back());
+  job.begin(b.settings.phase, double(b.count()) * b.ends.back(), "rays", done);
+  while (b.least() < target)
+    if (!b.trace(b.least(), b.nextStop(b.least(), target), job, rest)) return;
   if (b.buried.empty()) b.findBuriedSamples(job);
 }
 

@@ -17,6 +17,7 @@
 #include "libprt/transport/sample_set.h"
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -74,9 +75,11 @@ class DirectBake {
   int levels() const;
   bool done() const { return level() == levels(); }
 
-  /// Completes the next level. Begins a phase of `job` counted in rays. Throws Cancelled within
-  /// milliseconds; whatever tiles were done stay done, and the next call goes on from there.
-  void advance(Job& job);
+  /// Completes the next level. Begins a phase of `job` counted in rays, out of those of all levels. Throws
+  /// Cancelled within milliseconds; whatever tiles were done stay done, and the next call goes on from
+  /// there. `rest`, if given, is asked before every tile (from many threads): once it says true, advance()
+  /// returns early in the same way, so that a checkpoint can be taken in the midst of a long level.
+  void advance(Job& job, const std::function<bool()>& rest = {});
 
   /// What the completed level gives. Throws std::logic_error between levels (after Cancelled) and before
   /// the first.

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numeric>
 
 namespace prt {
@@ -256,7 +257,7 @@ TEST(DirectTransfer, AnInterruptedBakeEndsInTheSameBits) {
       int heard = 0;
       Job* self = nullptr;
       Job job([&](const Progress&) {
-        if (++heard > 4) self->cancel();
+        if (++heard > 2) self->cancel();
       }, 1e9);
       self = &job;
       try {
@@ -270,6 +271,30 @@ TEST(DirectTransfer, AnInterruptedBakeEndsInTheSameBits) {
     }
     EXPECT_GT(interruptions, 3);
   }
+}
+
+TEST(DirectTransfer, RestsWhenAskedAndGoesOnToTheSameBits) {
+  const BakeInput input(rock(24));
+  const DirectTransfer expected = input.direct(settings(700));
+  Job job;
+  DirectBake bake(input.scene, input.rays, input.samples, settings(700));
+  int rests = 0;
+  while (!bake.done()) {
+    std::atomic<int> tiles{0};
+    const int level = bake.level();
+    const double before = job.snapshot().done;
+    bake.advance(job, [&] { return ++tiles > 1; });
+    if (bake.level() != level) continue;
+    ++rests;
+    EXPECT_GT(job.snapshot().done, before);
+    DirectBake resumed(input.scene, input.rays, input.samples, settings(700));
+    resumed.restore(bake.checkpoint());
+    while (!resumed.done()) resumed.advance(job);
+    EXPECT_TRUE(sameBits(resumed.product(job), expected));
+    job.progress(before, job.snapshot().total);
+  }
+  EXPECT_GT(rests, 2);
+  EXPECT_TRUE(sameBits(bake.product(job), expected));
 }
 
 TEST(DirectTransfer, MoreRaysExtendWhatIsThere) {
