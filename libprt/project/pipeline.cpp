@@ -129,8 +129,11 @@ class PipelineRun::Run : public StageRun {
     return store && !previewing_ ? store->findCheckpoint(stage_.name, checkpointKey_) : nullptr;
   }
 
-  void offerCheckpoint(const std::function<ProductData()>& save) override {
-    if (due()) keepCheckpoint(save);
+  bool checkpointDue() const override {
+    if (!run_.pipeline_.store_ || previewing_) return false;
+    const double every = run_.pipeline_.options_.checkpointSeconds;
+    const auto since = Clock::now() - written_;
+    return every <= 0 || (since >= std::chrono::duration<double>(every) && since >= 9 * cost_);
   }
 
   void keepCheckpoint(const std::function<ProductData()>& save) override {
@@ -143,13 +146,6 @@ class PipelineRun::Run : public StageRun {
   }
 
  private:
-  /// Not too often, and never so that writing takes more than a tenth of the time.
-  bool due() const {
-    const double every = run_.pipeline_.options_.checkpointSeconds;
-    const auto since = Clock::now() - written_;
-    return every <= 0 || (since >= std::chrono::duration<double>(every) && since >= 9 * cost_);
-  }
-
   PipelineRun& run_;
   const Stage& stage_;
   bool previewing_;

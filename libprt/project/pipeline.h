@@ -49,7 +49,7 @@ class Pipeline {
  public:
   struct Options {
     std::filesystem::path folder = ".";  ///< relative paths of the recipe start here
-    double checkpointSeconds = 5;        ///< least time between checkpoints, never over 10 % of a run; 0 = write every one
+    double checkpointSeconds = 5;        ///< least time between checkpoints, never over 10 % of a run; 0 = no limit
   };
 
   /// `store` may be null: nothing outlives this object then. Keeps references to store and table.

@@ -59,6 +59,56 @@ json metaOf(const ProductData& data) {
   return meta;
 }
 
+int wholeNumber(const json& meta, const char* name, int low, int high) {
+  const auto found = meta.find(name);
+  if (found == meta.end() || !found->is_number_integer() || *found < low || *found > high)
+    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project", "bake again");
+  return found->get<int>();
+}
+
+/// Arrays that a form does not have are left out.
+void put(ProductData& data, const std::string& name, const Array& array) {
+  if (!array.bytes.empty()) data.arrays[name] = array;
+}
+
+Array take(ProductData& data, const std::string& name) {
+  const auto found = data.arrays.find(name);
+  return found == data.arrays.end() ? Array{} : std::move(found->second);
+}
+
+[[noreturn]] void unfit(const std::string& stage) {
+  throw FileError("the arrays of stage " + stage + " do not fit together", "project", "bake again");
+}
+
+/// Throws unless the array is float (or half where allowed) and of this shape.
+void requireShape(const Array& array, std::vector<std::int64_t> shape, bool halfToo, const std::string& stage) {
+  const bool type = array.dtype == DType::f32 || (halfToo && array.dtype == DType::f16);
+  if (!type || array.shape != shape) unfit(stage);
+}
+
+/// [S, functions], and 3 more numbers where there is colour.
+std::vector<std::int64_t> vectorShape(std::int64_t samples, std::int64_t functions, int channels) {
+  if (channels == 3) return {samples, functions, 3};
+  return {samples, functions};
+}
+
+/// What the renderers rely on: a damaged or forged file must not get past here.
+void checkShapes(const Transfer& t) {
+  const std::string stage = "transfer";
+  const auto samples = std::int64_t(t.samples);
+  const std::int64_t k = t.functions(), wide = std::int64_t(2 * t.bands - 1) * (2 * t.bands - 1);
+  const auto blocks = std::int64_t((t.samples + kMatrixLanes - 1) / kMatrixLanes);
+  if (t.channels != 1 && t.channels != 3) unfit(stage);
+  switch (t.form) {
+    case TransferForm::None: break;
+    case TransferForm::Diffuse: requireShape(t.values, vectorShape(samples, k, t.channels), true, stage); break;
+    case TransferForm::Visibility: requireShape(t.values, {samples, wide}, true, stage); break;
+    case TransferForm::Matrix: requireShape(t.values, {blocks, t.channels, k, k, std::int64_t(kMatrixLanes)}, true, stage); break;
+  }
+  if (t.form == TransferForm::Visibility || t.form == TransferForm::Matrix)
+    requireShape(t.diffuse, vectorShape(samples, k, t.channels), false, stage);
+}
+
 }  // namespace
 
 ProductData MeshProduct::save() const {
@@ -90,6 +140,69 @@ ProductPtr MeshProduct::load(ProductData data) {
 
 std::string MeshProduct::repairText(std::size_t object) const {
   return json::parse(reports[object]).value("text", "nothing to repair");
+}
+
+ProductData DirectProduct::save() const {
+  const json meta{{"bands", direct.settings.bands},
+                  {"rays", direct.settings.rays},
+                  {"gathered", direct.raysPerSample},
+                  {"visibility", direct.settings.visibility},
+                  {"seed", direct.settings.seed}};
+  ProductData data{meta.dump(), {}};
+  put(data, "diffuse", direct.diffuse);
+  put(data, "visibility", direct.visibility);
+  put(data, "buried", direct.buried);
+  return data;
+}
+
+ProductPtr DirectProduct::load(ProductData data) {
+  const json meta = metaOf(data);
+  auto product = std::make_shared<DirectProduct>();
+  DirectTransfer& d = product->direct;
+  d.settings.bands = wholeNumber(meta, "bands", 1, 10);
+  d.settings.rays = wholeNumber(meta, "rays", 1, kMaxRays);
+  d.raysPerSample = wholeNumber(meta, "gathered", 0, kMaxRays);
+  d.settings.visibility = meta.value("visibility", false);
+  d.settings.seed = meta.value("seed", std::uint64_t(0));
+  d.diffuse = take(data, "diffuse");
+  d.visibility = take(data, "visibility");
+  d.buried = take(data, "buried");
+  if (d.diffuse.bytes.empty() && d.visibility.bytes.empty()) return product;  // of the form None
+  const auto samples = std::int64_t(d.samples());
+  const std::int64_t side = 2 * d.settings.bands - 1;
+  requireShape(d.diffuse, {samples, std::int64_t(d.settings.bands) * d.settings.bands}, false, "direct");
+  if (d.settings.visibility) requireShape(d.visibility, {samples, side * side}, false, "direct");
+  if (d.buried.dtype != DType::u8 || d.buried.shape != std::vector<std::int64_t>{samples}) unfit("direct");
+  return product;
+}
+
+ProductData TransferProduct::save() const {
+  const json meta{{"form", int(transfer.form)},      {"bands", transfer.bands},         {"channels", transfer.channels},
+                  {"samples", transfer.samples},     {"gathered", transfer.raysPerSample}, {"rays", transfer.raysWanted},
+                  {"bounces", transfer.bounces},     {"storageError", transfer.storageError}};
+  ProductData data{meta.dump(), {}};
+  put(data, "values", transfer.values);
+  put(data, "diffuse", transfer.diffuse);
+  put(data, "surface", transfer.surface);
+  return data;
+}
+
+ProductPtr TransferProduct::load(ProductData data) {
+  const json meta = metaOf(data);
+  Transfer t;
+  t.form = TransferForm(wholeNumber(meta, "form", 0, int(TransferForm::Matrix)));
+  t.bands = wholeNumber(meta, "bands", 1, 10);
+  t.channels = wholeNumber(meta, "channels", 1, 3);
+  t.samples = std::size_t(wholeNumber(meta, "samples", 0, std::numeric_limits<int>::max()));
+  t.raysPerSample = wholeNumber(meta, "gathered", 0, kMaxRays);
+  t.raysWanted = wholeNumber(meta, "rays", 0, kMaxRays);
+  t.bounces = wholeNumber(meta, "bounces", 0, kMaxBounces);
+  t.storageError = meta.value("storageError", 0.0);
+  t.values = take(data, "values");
+  t.diffuse = take(data, "diffuse");
+  t.surface = take(data, "surface");
+  checkShapes(t);
+  return std::make_shared<TransferProduct>(std::move(t));
 }
 
 Scene withMaterials(Scene scene, const Recipe& recipe) {

@@ -2,11 +2,13 @@
 // The products of the stages, as the types that renderers and exports use.
 
 #include "libprt/mesh/mesh.h"
+#include "libprt/mesh/tangent_frames.h"
 #include "libprt/project/product.h"
 #include "libprt/project/recipe.h"
 #include "libprt/transport/ray_scene.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
+#include "libprt/transport/transfer_bake.h"
 
 #include <memory>
 #include <string>
@@ -46,6 +48,32 @@ struct RaysProduct : Product {
   explicit RaysProduct(const Scene& scene) : rays(std::make_shared<RayScene>(scene)) {}
   std::shared_ptr<const RayScene> rays;
   ProductData save() const override { return {}; }
+};
+
+/// Stage "frames": tangents that turn transferred radiance into local frames.
+struct FramesProduct : Product {
+  explicit FramesProduct(TangentFrames f) : frames(std::move(f)) {}
+  TangentFrames frames;
+  ProductData save() const override { return {}; }
+};
+
+/// Stage "direct". Empty for the form None.
+struct DirectProduct : Product {
+  DirectProduct() = default;
+  explicit DirectProduct(DirectTransfer d) : direct(std::move(d)) {}
+  DirectTransfer direct;
+
+  ProductData save() const override;
+  static ProductPtr load(ProductData data);
+};
+
+/// Stage "transfer": what pictures are made from.
+struct TransferProduct : Product {
+  explicit TransferProduct(Transfer t) : transfer(std::move(t)) {}
+  Transfer transfer;
+
+  ProductData save() const override;
+  static ProductPtr load(ProductData data);
 };
 
 /// The scene with the materials and names that the recipe has now. Throws ValueError when the recipe has

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <stdexcept>
 
 namespace prt {
 namespace {
@@ -96,6 +97,8 @@ std::vector<ProductRow> readProductRows(Database& database) {
 
 std::string writeArray(Database& database, std::int64_t product, const std::string& name, const Array& array,
                        std::size_t& uncommitted) {
+  if (byteCount(array.shape, array.dtype) != std::int64_t(array.bytes.size()))
+    throw std::logic_error("array '" + name + "' does not have as many bytes as its shape says");
   const std::string dtype = toString(array.dtype), shape = shapeText(array.shape);
   std::string covered = arrayHead(name, dtype, shape);
   const std::int64_t id = 1 + database.integer("SELECT max(coalesce((SELECT max(id) FROM array), 0), coalesce((SELECT max(array) FROM chunk), 0))");

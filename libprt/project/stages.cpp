@@ -1,11 +1,14 @@
 #include "libprt/project/stages.h"
 
 #include "libprt/core/error.h"
+#include "libprt/core/log.h"
 #include "libprt/mesh/generate.h"
 #include "libprt/mesh/repair.h"
 #include "libprt/project/products.h"
 
 #include <nlohmann/json.hpp>
+
+#include <atomic>
 
 namespace prt {
 namespace {
@@ -13,7 +16,11 @@ namespace {
 ProductPtr makeMeshes(StageRun& run);
 ProductPtr makeScene(StageRun& run);
 ProductPtr makeSamples(StageRun& run);
+ProductPtr makeFrames(StageRun& run);
 ProductPtr makeRays(StageRun& run);
+ProductPtr makeDirect(StageRun& run);
+ProductPtr makeTransfer(StageRun& run);
+std::string directForm(const Recipe& recipe);
 
 /// The pipeline. A stage reads its inputs and the parts of the recipe that stand in its line, nothing else.
 std::vector<Stage> makeStages() {
@@ -34,11 +41,30 @@ std::vector<Stage> makeStages() {
        .inputs = {"scene"},
        .stored = false,
        .make = makeSamples},
+      {.name = "frames",
+       .makes = "a tangent frame at each corner of each triangle",
+       .inputs = {"scene"},
+       .stored = false,
+       .make = makeFrames},
       {.name = "rays",
        .makes = "the tree that rays are traced through",
        .inputs = {"scene"},
        .stored = false,
        .make = makeRays},
+      {.name = "direct",
+       .makes = "what light from outside does at each sample, shadowed but not reflected",
+       .inputs = {"scene", "samples", "rays"},
+       .reads = {"transfer.bands", "transfer.rays", "transfer.seed"},
+       .extends = {"transfer.rays"},
+       .derives = directForm,
+       .make = makeDirect,
+       .load = DirectProduct::load},
+      {.name = "transfer",
+       .makes = "direct transfer and bounces, in the form that materials need",
+       .inputs = {"scene", "samples", "rays", "direct"},
+       .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold", "transfer.storage"},
+       .make = makeTransfer,
+       .load = TransferProduct::load},
   };
 }
 
@@ -88,8 +114,90 @@ ProductPtr makeSamples(StageRun& run) {
   return std::make_shared<SamplesProduct>(samplesAtVertices(*run.input<SceneProduct>("scene")->scene));
 }
 
+ProductPtr makeFrames(StageRun& run) {
+  return std::make_shared<FramesProduct>(makeTangentFrames(run.input<SceneProduct>("scene")->scene->mesh, {}, run.job()));
+}
+
 ProductPtr makeRays(StageRun& run) {
   return std::make_shared<RaysProduct>(*run.input<SceneProduct>("scene")->scene);
+}
+
+TransferForm formOf(TransferKind kind) {
+  switch (kind) {
+    case TransferKind::None: return TransferForm::None;
+    case TransferKind::Visibility: return TransferForm::Visibility;
+    case TransferKind::Matrix: return TransferForm::Matrix;
+    default: return TransferForm::Diffuse;
+  }
+}
+
+TransferSettings settingsOf(const Recipe& recipe) {
+  const TransferRecipe& t = recipe.transfer;
+  TransferSettings settings;
+  settings.form = formOf(t.kind);
+  settings.bands = t.bands;
+  settings.rays = t.rays;
+  settings.bounces = t.bounces;
+  settings.shadows = t.shadows;
+  settings.stopThreshold = t.threshold;
+  settings.storage = t.storage == TransferStorage::Half ? DType::f16 : DType::f32;
+  settings.seed = t.seed;
+  check(settings);
+  return settings;
+}
+
+/// What the direct product must hold; all that it has to know about materials.
+std::string directForm(const Recipe& recipe) {
+  const TransferForm form = formOf(recipe.transfer.kind);
+  if (form == TransferForm::None) return "nothing";
+  return directSettings(settingsOf(recipe), form).visibility ? "visibility" : "diffuse";
+}
+
+constexpr int kTilesBetweenRests = 16;  // however short the time between checkpoints, work gets done
+
+/// Goes on from saved sums, unless they hold more rays than are wanted: a product depends on the recipe
+/// alone, not on what was baked before.
+void restore(DirectBake& bake, const ProductData& saved, int rays) {
+  const auto gathered = saved.arrays.find("direction_rays");
+  if (gathered == saved.arrays.end() || gathered->second.dtype != DType::i32 || gathered->second.bytes.size() != 4) return;
+  if (gathered->second.as<std::int32_t>()[0] > rays) return;
+  try {
+    bake.restore(saved.arrays);
+  } catch (const FileError& error) {
+    logWarning(std::string("the saved part of the bake cannot be used and is made again: ") + error.what());
+  }
+}
+
+ProductPtr makeDirect(StageRun& run) {
+  const TransferSettings settings = settingsOf(run.recipe());
+  if (settings.form == TransferForm::None) return std::make_shared<DirectProduct>();
+  DirectBake bake(run.input<SceneProduct>("scene")->scene, run.input<RaysProduct>("rays")->rays,
+                  run.input<SamplesProduct>("samples")->samples, directSettings(settings, *settings.form));
+  if (const auto saved = run.checkpoint()) restore(bake, *saved, settings.rays);
+  const auto checkpoint = [&] { return ProductData{"{}", bake.checkpoint()}; };
+  try {
+    while (!bake.done()) {
+      const int level = bake.level();
+      std::atomic<int> tiles{0};
+      bake.advance(run.job(), [&] { return ++tiles > kTilesBetweenRests && run.checkpointDue(); });
+      if (run.checkpointDue() && !bake.done()) run.keepCheckpoint(checkpoint);
+      if (bake.level() > level && !bake.done() && run.wantsPreviews())
+        run.preview(std::make_shared<DirectProduct>(bake.product(run.job())), bake.level(), bake.levels());
+    }
+  } catch (const Cancelled&) {
+    run.keepCheckpoint(checkpoint);
+    throw;
+  }
+  run.keepCheckpoint(checkpoint);  // from here more rays can be added
+  return std::make_shared<DirectProduct>(bake.product(run.job()));
+}
+
+ProductPtr makeTransfer(StageRun& run) {
+  const TransferSettings settings = settingsOf(run.recipe());
+  const Scene scene = withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe());
+  return std::make_shared<TransferProduct>(finishTransfer(scene, *run.input<RaysProduct>("rays")->rays,
+                                                          *run.input<SamplesProduct>("samples")->samples,
+                                                          run.input<DirectProduct>("direct")->direct, settings, *settings.form, run.job()));
 }
 
 }  // namespace

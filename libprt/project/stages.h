@@ -4,8 +4,9 @@
 // A stage is a pure function from its inputs (products of other stages) and the parts of the recipe that
 // it reads to one product. Its key is a hash of exactly these, so it runs only when one of them changed.
 //
-//   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─> relight
-//                  └─> rays ────┘
+//   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
+//                  ├─> rays ────┘                       ├─> relight
+//                  └─> frames ──────────────────────────┘
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
@@ -47,9 +48,10 @@ class StageRun {
 
   /// Work that an earlier run left, or nothing. Its key leaves out what Stage::extends lists.
   virtual std::unique_ptr<ProductData> checkpoint() const = 0;
-  /// Offers a state to go on from after a crash; `save` is called only when it is time to write one.
-  virtual void offerCheckpoint(const std::function<ProductData()>& save) = 0;
-  /// Writes a state in any case: at the end, so that more can be added later, and when cancelled.
+  /// Whether it is time to write a state that a later run can go on from. Thread-safe and quick.
+  virtual bool checkpointDue() const = 0;
+  /// Writes one; `save` is not called when there is nowhere to write. Do so when it is due, when cancelled,
+  /// and at the end where more can be added later.
   virtual void keepCheckpoint(const std::function<ProductData()>& save) = 0;
 };
 

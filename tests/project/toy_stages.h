@@ -68,10 +68,11 @@ class ToyStages {
       }
       ++passes;
       sum += 1.0 / ++done;
-      run.offerCheckpoint([&] {
-        const double state[2] = {double(done), sum};
-        return ProductData{"{}", {{"state", Array::from<double>(state, {2})}}};
-      });
+      if (run.checkpointDue())
+        run.keepCheckpoint([&] {
+          const double state[2] = {double(done), sum};
+          return ProductData{"{}", {{"state", Array::from<double>(state, {2})}}};
+        });
       if (done < wanted && run.wantsPreviews()) run.preview(std::make_shared<Number>(sum), done, wanted);
     }
     return sum;
