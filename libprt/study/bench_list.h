@@ -1,0 +1,51 @@
+#pragma once
+// The benches that runBench() knows. Internal to study: to add one, declare it here and list it in bench.cpp.
+
+#include "libprt/core/job.h"
+#include "libprt/study/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace prt {
+
+/// Direct 25 x 25 bake against the same rays traced and thrown away.
+BenchResult benchBake(Job& job, int repetitions);
+/// Three diffuse bounces against the direct bake before them.
+BenchResult benchBounces(Job& job, int repetitions);
+/// Dense transfer applied to RGB light against reading the matrices.
+BenchResult benchTransfer(Job& job, int repetitions);
+
+struct Scene;
+class RayScene;
+struct SampleSet;
+
+/// The scene of the transfer benches: a built-in rock of 10 242 vertices with hollows, ready for baking.
+struct BenchScene {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const RayScene> rays;
+  std::shared_ptr<const SampleSet> samples;
+};
+BenchScene benchScene();
+
+/// A job for work inside a bench: reports to nobody, ends when the bench's own job is cancelled.
+struct InnerJob {
+  explicit InnerJob(Job& outer)
+      : job([this, &outer](const Progress&) {
+          if (outer.cancelled()) job.cancel();
+        }) {
+    outer.checkCancelled();
+  }
+  Job job;
+};
+
+/// Wall-clock seconds of one call.
+double secondsOf(const std::function<void()>& work);
+
+/// Median of some numbers, at least one.
+double median(std::vector<double> values);
+
+}  // namespace prt
