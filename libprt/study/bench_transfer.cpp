@@ -26,7 +26,7 @@ Transfer makeMatrices() {
   transfer.form = TransferForm::Matrix;
   transfer.bands = kBands;
   transfer.samples = kVertices;
-  transfer.values = matrixBlocks(dense, kVertices, 1, kBands, DType::f16);
+  transfer.values = packedMatrices(dense, kVertices, 1, kBands, DType::f16);
   return transfer;
 }
 

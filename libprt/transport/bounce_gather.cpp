@@ -3,7 +3,6 @@
 #include "libprt/basis/sh.h"
 #include "libprt/basis/sh_rotation.h"
 #include "libprt/core/parallel.h"
-#include "libprt/transport/transfer.h"
 
 #include <algorithm>
 #include <array>
@@ -195,7 +194,7 @@ SampleRows BounceGather::irradiance(const SampleRows& leaving, Job& job) {
   return out;
 }
 
-void BounceGather::directional(int bands, const SampleRows& leaving, Job& job, const UseMatrices& use) {
+void BounceGather::directional(int bands, const SampleRows& leaving, Job& job, const UseMatrix& use) {
   constexpr std::size_t kSumMemory = std::size_t{64} << 20;
   const std::size_t sumSize = OuterProducts(bands, leaving).size();
   const std::size_t tilesAtOnce = std::max<std::size_t>(1, kSumMemory / (sumSize * sizeof(float) * kBakeTile));
@@ -221,18 +220,14 @@ void BounceGather::directional(int bands, const SampleRows& leaving, Job& job, c
       });
     }
     const std::size_t lastSample = std::min(samples_.size(), lastTile * kBakeTile);
-    parallelFor(job, firstSample, lastSample, kMatrixLanes, [&](std::size_t first, std::size_t last) {
-      const std::size_t size = std::size_t(shCount(bands)) * leaving.width;
-      std::vector<float> matrices((last - first) * size);
-      std::vector<const float*> pointers;
+    parallelFor(job, firstSample, lastSample, kBakeTile, [&](std::size_t first, std::size_t last) {
+      std::vector<float> matrix(std::size_t(shCount(bands)) * leaving.width);
       for (std::size_t s = first; s < last; ++s) {
         const ShRotation toObject(bands, bakeFrame(samples_, s, spread_, seed).matrix());
-        float* matrix = &matrices[(s - first) * size];
         rotateRows(toObject, &sums[(s - firstSample) * sumSize], OuterProducts(bands, leaving).rowSize(), leaving.width,
-                   2 * kPiF / float(rays), matrix);
-        pointers.push_back(matrix);
+                   2 * kPiF / float(rays), matrix.data());
+        use(s, matrix.data());
       }
-      use(first, pointers);
     });
   }
 }

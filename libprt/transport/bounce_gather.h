@@ -40,11 +40,11 @@ class BounceGather {
   /// sample as irradiance.
   SampleRows irradiance(const SampleRows& leaving, Job& job);
 
-  /// The same with its directions: use(first, matrices) gets up to kMatrixLanes samples from `first` on, at
-  /// matrices[i][k * leaving.width + j] the k-th coefficient (object frame, bands^2 of them) of the incident
-  /// radiance that the j-th leaving one makes. Several threads call it at once. Needs uniform rays.
-  using UseMatrices = std::function<void(std::size_t first, std::span<const float* const> matrices)>;
-  void directional(int bands, const SampleRows& leaving, Job& job, const UseMatrices& use);
+  /// The same with its directions: use(sample, matrix) gets at matrix[k * leaving.width + j] the k-th coefficient
+  /// (object frame, bands^2 of them) of the incident radiance that the j-th leaving one makes. Called once per
+  /// sample, by several threads at once. Needs uniform rays.
+  using UseMatrix = std::function<void(std::size_t sample, const float* matrix)>;
+  void directional(int bands, const SampleRows& leaving, Job& job, const UseMatrix& use);
 
   /// Rays that one gather goes over.
   double rayCount() const { return double(samples_.size()) * direct_.raysPerSample; }

@@ -30,9 +30,8 @@ struct Transfer {
   int channels = 1;         ///< 3 when bounces carry colour
   std::size_t samples = 0;
   /// f32 or f16, with n = bands. None: empty. Diffuse: [S, n^2], or [S, n^2, 3]. Visibility: [S, (2n-1)^2].
-  /// Matrix: in blocks of kMatrixLanes samples, [ceil(S / 16), channels, n^2 rows, n^2 columns, 16], samples
-  /// innermost, rows = transferred, columns = light; lanes beyond the last sample are zero. So applying it
-  /// reads memory once, in order, and works on 16 samples at a time; expandedMatrices() gives [S, n^2, n^2].
+  /// Matrix: [S, channels, n^2, n^2] by columns: element ((s * channels + c) * n^2 + light) * n^2 + transferred.
+  /// So that applying it reads memory once, in order; expandedMatrices() gives rows first.
   Array values;
   /// Visibility and Matrix: the diffuse vectors as well, [S, n^2] or [S, n^2, 3] f32. They are estimated with
   /// the cosine inside, where T would cut it (times the light) off after n bands.
@@ -50,8 +49,6 @@ struct Transfer {
   bool final() const { return raysPerSample >= raysWanted; }
   int functions() const { return bands * bands; }
 };
-
-inline constexpr std::size_t kMatrixLanes = 16;
 
 /// Irradiance at each sample, [S]. `normals` (shading normals, [S]) serve the form that does not hold the
 /// cosine (None: E = sum of A_l Y_lm(n) L_lm); others ignore them. Lights may have fewer or more bands than
@@ -80,6 +77,6 @@ Array diffuseVectors(const Transfer& transfer);
 
 /// The reverse of expandedMatrices() for the Matrix form: Transfer::values from [S, n^2, n^2] floats, or
 /// [S, n^2, n^2, 3] with 3 channels, stored as f32 or f16.
-Array matrixBlocks(std::span<const float> matrices, std::size_t samples, int channels, int bands, DType storage);
+Array packedMatrices(std::span<const float> matrices, std::size_t samples, int channels, int bands, DType storage);
 
 }  // namespace prt

@@ -1,22 +1,16 @@
-// Applying stored transfer to light. The dense form is bound by memory: its kernel reads the blocked array
-// once, in order, converts halves on the fly and keeps the RGB sums of 16 samples in registers.
+// Applying stored transfer to light.
 
 #include "libprt/basis/sh_product.h"
 #include "libprt/core/error.h"
 #include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
-#include "libprt/transport/matrix_blocks.h"
-#include "libprt/transport/memory_limit.h"
+#include "libprt/transport/matrix_kernel.h"
+#include "libprt/transport/matrix_store.h"
 #include "libprt/transport/transfer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
-
-#ifdef __F16C__
-#include <immintrin.h>
-#endif
 
 namespace prt {
 namespace {
@@ -48,96 +42,35 @@ std::vector<Rgb> fitted(const ShRgb& light, int bands) {
 }
 
 inline Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
-inline Float8 load8(const std::uint16_t* p) {
-#ifdef __F16C__
-  return Float8(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
-#else
-  Float8 out;
-  for (int i = 0; i < 8; ++i) out[i] = fromHalf(p[i]);
-  return out;
-#endif
-}
 
 // ---- Matrix ----
 
-/// `Rows` rows of one block times the light, for `Colours` colours: sum[(row * 3 + colour) * 16 + lane].
-/// `light` holds, per column, the colours that this channel's matrix is applied to.
-template <int Rows, int Colours, class T>
-void multiplyRows(const T* matrix, std::size_t functions, const float* light, float* sum, int sumStride) {
-  Float8 acc[Rows][Colours][2] = {};
-  const std::size_t rowSize = functions * kMatrixLanes;
-  for (std::size_t column = 0; column < functions; ++column)
-    for (int r = 0; r < Rows; ++r) {
-      const T* at = matrix + std::size_t(r) * rowSize + column * kMatrixLanes;
-      const Float8 low = load8(at), high = load8(at + 8);
-      for (int c = 0; c < Colours; ++c) {
-        acc[r][c][0] += low * light[column * Colours + std::size_t(c)];
-        acc[r][c][1] += high * light[column * Colours + std::size_t(c)];
-      }
-    }
-  for (int r = 0; r < Rows; ++r)
-    for (int c = 0; c < Colours; ++c)
-      for (int h = 0; h < 2; ++h)
-        *reinterpret_cast<Float8*>(sum + r * sumStride + c * int(kMatrixLanes) + 8 * h) = acc[r][c][h];
-}
-
-template <int Colours, class T>
-void multiplyBlock(const T* matrix, std::size_t functions, const float* light, float* sum) {
-  constexpr int kRowsAtOnce = Colours == 3 ? 2 : 4;
-  constexpr int kSumStride = 3 * int(kMatrixLanes);
-  std::size_t row = 0;
-  for (; row + kRowsAtOnce <= functions; row += kRowsAtOnce)
-    multiplyRows<kRowsAtOnce, Colours>(matrix + row * functions * kMatrixLanes, functions, light, sum + row * kSumStride, kSumStride);
-  for (; row < functions; ++row)
-    multiplyRows<1, Colours>(matrix + row * functions * kMatrixLanes, functions, light, sum + row * kSumStride, kSumStride);
-}
-
-/// All samples of one block: sum[(row * 3 + colour) * 16 + lane].
+/// Runs of consecutive samples [first, first + count) that are wanted at `result`; the last matrix of the array is
+/// copied first, since the kernels read a little beyond what they use.
 template <class T>
-void multiplyBlock(const T* block, const MatrixLayout& layout, const std::vector<Rgb>& light, float* sum) {
-  if (layout.channels == 1) return multiplyBlock<3>(block, layout.functions, &light[0].x, sum);
-  std::vector<float> one(layout.functions);
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < layout.functions; ++k) one[k] = light[k][int(c)];
-    multiplyBlock<1>(block + c * layout.channelSize(), layout.functions, one.data(), sum + c * kMatrixLanes);
-  }
-}
-
-void storeLane(const float* sum, std::size_t functions, std::size_t lane, Rgb* result) {
-  for (std::size_t k = 0; k < functions; ++k, sum += 3 * kMatrixLanes)
-    result[k] = {sum[lane], sum[kMatrixLanes + lane], sum[2 * kMatrixLanes + lane]};
+void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t first, std::size_t count, const std::vector<Rgb>& light,
+                 Rgb* result) {
+  const auto run = [&](const T* from, std::size_t samples, Rgb* to) {
+    const MatrixProduct product{samples, layout.channels, layout.functions, &light[0].x, &to[0].x};
+    wideKernelRuns() ? multiplyMatricesWide(from, product) : multiplyMatrices(from, product);
+  };
+  const std::size_t size = layout.sampleSize();
+  const bool last = first + count == layout.samples;
+  if (count > (last ? 1u : 0u)) run(matrices + first * size, count - (last ? 1 : 0), result);
+  if (!last) return;
+  std::vector<T> padded(size + kKernelOverread);
+  std::copy_n(matrices + (layout.samples - 1) * size, size, padded.begin());
+  run(padded.data(), 1, result + (count - 1) * layout.functions);
 }
 
 template <class T>
 void applyMatrix(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection, Rgb* result) {
   const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels), std::size_t(transfer.functions())};
-  const T* values = transfer.values.as<T>().data();
+  const T* matrices = transfer.values.as<T>().data();
   Job job;
-  if (!selection.list) {
-    parallelFor(job, 0, layout.blocks(), 16, [&](std::size_t begin, std::size_t end) {
-      std::vector<float> sum(layout.functions * 3 * kMatrixLanes);
-      for (std::size_t b = begin; b < end; ++b) {
-        multiplyBlock(values + b * layout.blockSize(), layout, light, sum.data());
-        const std::size_t lanes = std::min(kMatrixLanes, layout.samples - b * kMatrixLanes);
-        for (std::size_t i = 0; i < lanes; ++i)
-          storeLane(sum.data(), layout.functions, i, result + (b * kMatrixLanes + i) * layout.functions);
-      }
-    });
-    return;
-  }
-  // Samples of a list share blocks: each block that is named is multiplied once.
-  std::vector<std::uint32_t> order(selection.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return selection.at(a) < selection.at(b); });
-  parallelFor(job, 0, order.size(), 256, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> sum(layout.functions * 3 * kMatrixLanes);
-    std::size_t current = layout.blocks();
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t sample = selection.at(order[i]), block = sample / kMatrixLanes;
-      if (block != current) multiplyBlock(values + block * layout.blockSize(), layout, light, sum.data());
-      current = block;
-      storeLane(sum.data(), layout.functions, sample % kMatrixLanes, result + order[i] * layout.functions);
-    }
+  parallelFor(job, 0, selection.size(), 256, [&](std::size_t begin, std::size_t end) {
+    if (!selection.list) return multiplyRun(layout, matrices, begin, end - begin, light, result + begin * layout.functions);
+    for (std::size_t i = begin; i < end; ++i) multiplyRun(layout, matrices, selection.at(i), 1, light, result + i * layout.functions);
   });
 }
 

@@ -5,7 +5,7 @@
 #include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
 #include "libprt/transport/bounces.h"
-#include "libprt/transport/matrix_blocks.h"
+#include "libprt/transport/matrix_store.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,37 +139,27 @@ class Finish {
     const auto functions = std::size_t(shCount(settings_.bands)), channels = std::size_t(bounced.channels);
     const MatrixLayout layout{samples_.size(), channels, functions};
     MatrixPacker packer(layout, storage);
-    const auto addDirectAndPack = [&](std::size_t first, std::span<const float* const> indirect) {
-      std::vector<float> sum(indirect.size() * functions * functions * channels);
-      std::vector<const float*> lanes;
-      for (std::size_t i = 0; i < indirect.size(); ++i) {
-        float* matrix = &sum[i * functions * functions * channels];
-        withDirect(first + i, indirect[i], channels, matrix);
-        lanes.push_back(matrix);
-      }
-      packer.pack(first / kMatrixLanes, lanes);
-    };
     if (bounced.bounces > 0) {
       job_.begin("transfer matrices", gather_.rayCount(), "rays");
       const SampleRows leaving = leavingRadiance(scene_, surfaceSet_, bounced.surface, bounced.channels);
-      gather_.directional(settings_.bands, leaving, job_, addDirectAndPack);
+      gather_.directional(settings_.bands, leaving, job_, [&](std::size_t sample, const float* indirect) {
+        packer.pack(sample, withDirect(sample, indirect, channels).data());
+      });
     } else {
-      parallelFor(job_, 0, samples_.size(), kMatrixLanes, [&](std::size_t first, std::size_t last) {
-        const std::vector<const float*> none(last - first, nullptr);
-        addDirectAndPack(first, none);
+      parallelFor(job_, 0, samples_.size(), kBakeTile, [&](std::size_t first, std::size_t last) {
+        for (std::size_t s = first; s < last; ++s) packer.pack(s, withDirect(s, nullptr, channels).data());
       });
     }
     return packer.take(fill_, storageError);
   }
 
   /// T_0 in every channel, plus what bounces add (null: nothing).
-  void withDirect(std::size_t sample, const float* indirect, std::size_t channels, float* matrix) const {
+  std::vector<float> withDirect(std::size_t sample, const float* indirect, std::size_t channels) const {
     const auto functions = std::size_t(shCount(settings_.bands)), wide = std::size_t(shCount(2 * settings_.bands - 1));
-    std::vector<float> direct(functions * functions);
+    std::vector<float> direct(functions * functions), matrix(direct.size() * channels);
     expandVisibility(settings_.bands, direct_.visibility.as<float>().subspan(sample * wide, wide), direct);
-    for (std::size_t e = 0; e < direct.size(); ++e)
-      for (std::size_t c = 0; c < channels; ++c)
-        matrix[e * channels + c] = direct[e] + (indirect ? indirect[e * channels + c] : 0.0f);
+    for (std::size_t i = 0; i < matrix.size(); ++i) matrix[i] = direct[i / channels] + (indirect ? indirect[i] : 0.0f);
+    return matrix;
   }
 
   const Scene& scene_;

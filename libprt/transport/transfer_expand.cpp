@@ -3,7 +3,7 @@
 #include "libprt/basis/sh_product.h"
 #include "libprt/core/error.h"
 #include "libprt/core/half.h"
-#include "libprt/transport/matrix_blocks.h"
+#include "libprt/transport/matrix_store.h"
 #include "libprt/transport/memory_limit.h"
 #include "libprt/transport/transfer.h"
 
@@ -19,18 +19,15 @@ std::vector<float> asFloats(const Array& array) {
   return values;
 }
 
-void expandBlocks(const Transfer& transfer, const MatrixLayout& layout, std::span<float> out) {
-  const std::size_t n2 = layout.functions * layout.functions;
-  const Array& from = transfer.values;
-  std::vector<float> block(layout.blockSize());
-  for (std::size_t s = 0; s < layout.samples; ++s) {
-    const std::size_t lane = s % kMatrixLanes, at = s / kMatrixLanes * layout.blockSize();
-    if (lane == 0 && from.dtype == DType::f32) std::copy_n(from.as<float>().begin() + std::ptrdiff_t(at), block.size(), block.begin());
-    if (lane == 0 && from.dtype == DType::f16) fromHalf(from.as<std::uint16_t>().subspan(at, block.size()), block);
-    for (std::size_t c = 0; c < layout.channels; ++c)
-      for (std::size_t e = 0; e < n2; ++e)
-        out[(s * n2 + e) * layout.channels + c] = block[(c * n2 + e) * kMatrixLanes + lane];
-  }
+/// Rows first, channels innermost, from columns first, channels outermost.
+void expandColumns(const Transfer& transfer, const MatrixLayout& layout, std::span<float> out) {
+  const std::vector<float> values = asFloats(transfer.values);
+  const std::size_t n = layout.functions, channels = layout.channels;
+  for (std::size_t s = 0; s < layout.samples; ++s)
+    for (std::size_t c = 0; c < channels; ++c)
+      for (std::size_t column = 0; column < n; ++column)
+        for (std::size_t row = 0; row < n; ++row)
+          out[((s * n + row) * n + column) * channels + c] = values[((s * channels + c) * n + column) * n + row];
 }
 
 }  // namespace
@@ -45,7 +42,7 @@ Array expandedMatrices(const Transfer& transfer) {
   Array array{DType::f32, {std::int64_t(layout.samples), n, n}, std::vector<std::byte>(layout.samples * one * sizeof(float))};
   if (layout.channels == 3) array.shape.push_back(3);
   const std::span<float> out(reinterpret_cast<float*>(array.bytes.data()), layout.samples * one);
-  if (transfer.form == TransferForm::Matrix) expandBlocks(transfer, layout, out);
+  if (transfer.form == TransferForm::Matrix) expandColumns(transfer, layout, out);
   if (transfer.form == TransferForm::None)
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = i % one / layout.functions == i % layout.functions ? 1.0f : 0.0f;
   if (transfer.form == TransferForm::Visibility) {

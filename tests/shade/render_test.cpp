@@ -66,7 +66,7 @@ Transfer identityMatrices(std::size_t samples, int channels) {
         v[((s * kFunctions + k) * kFunctions + k) * std::size_t(channels) + c] = 1;
   Transfer t;
   t.form = TransferForm::Matrix, t.bands = kBands, t.samples = samples, t.channels = channels;
-  t.values = matrixBlocks(v, samples, channels, kBands, DType::f32);
+  t.values = packedMatrices(v, samples, channels, kBands, DType::f32);
   return t;
 }
 Transfer openDiffuse(const SampleSet& samples) {

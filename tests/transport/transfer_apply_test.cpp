@@ -1,6 +1,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/half.h"
 #include "libprt/core/sampling.h"
+#include "libprt/transport/matrix_kernel.h"
 #include "libprt/transport/transfer.h"
 #include "tests/transport/bake_support.h"
 
@@ -28,7 +29,7 @@ Transfer matrixTransfer(std::size_t samples, int channels, int bands, DType stor
   Transfer transfer;
   transfer.form = TransferForm::Matrix;
   transfer.bands = bands, transfer.channels = channels, transfer.samples = samples;
-  transfer.values = matrixBlocks(dense, samples, channels, bands, storage);
+  transfer.values = packedMatrices(dense, samples, channels, bands, storage);
   return transfer;
 }
 
@@ -69,14 +70,41 @@ TEST(TransferApply, MatricesMultiplyAsTheyShould) {
       }
 }
 
-TEST(TransferApply, ExpandingUndoesTheBlocks) {
+/// Both kernels on the same numbers, whatever this machine would choose.
+TEST(TransferApply, WideAndNarrowKernelsAgree) {
+  if (!wideKernelRuns()) GTEST_SKIP() << "needs AVX-512";
+  for (const std::size_t channels : {1, 3})
+    for (const std::size_t n : {1, 4, 9, 16, 25, 36, 49, 64, 81, 100}) {
+      constexpr std::size_t kSamples = 7;
+      const std::vector<float> floats = randomNumbers(kSamples * channels * n * n + kKernelOverread, 11), light = randomNumbers(n * 3, 12);
+      std::vector<std::uint16_t> halves(floats.size());
+      toHalf(floats, halves);
+      const auto result = [&](const auto& run) {
+        std::vector<float> out(kSamples * n * 3 + 1, 77.0f);
+        run(MatrixProduct{kSamples, channels, n, light.data(), out.data()});
+        EXPECT_EQ(out.back(), 77.0f);  // nothing is written beyond
+        return out;
+      };
+      const auto wide = result([&](const MatrixProduct& p) { multiplyMatricesWide(floats.data(), p); }),
+                 narrow = result([&](const MatrixProduct& p) { multiplyMatrices(floats.data(), p); }),
+                 wideHalf = result([&](const MatrixProduct& p) { multiplyMatricesWide(halves.data(), p); }),
+                 narrowHalf = result([&](const MatrixProduct& p) { multiplyMatrices(halves.data(), p); });
+      for (std::size_t i = 0; i < wide.size(); ++i) {
+        EXPECT_NEAR(wide[i], narrow[i], 1e-5f);
+        EXPECT_NEAR(wideHalf[i], narrowHalf[i], 1e-5f);
+        EXPECT_NEAR(wideHalf[i], wide[i], 2e-3f * std::sqrt(float(n)));
+      }
+    }
+}
+
+TEST(TransferApply, ExpandingUndoesThePacking) {
   for (const int channels : {1, 3}) {
     std::vector<float> dense;
     const Transfer transfer = matrixTransfer(37, channels, 3, DType::f32, dense);
     const Array expanded = expandedMatrices(transfer);
     EXPECT_TRUE(std::ranges::equal(expanded.as<float>(), dense));
     EXPECT_EQ(expanded.shape.size(), channels == 3 ? 4u : 3u);
-    EXPECT_EQ(transfer.values.shape, (std::vector<std::int64_t>{3, channels, 9, 9, 16}));
+    EXPECT_EQ(transfer.values.shape, (std::vector<std::int64_t>{37, channels, 9, 9}));
   }
 }
 
@@ -174,8 +202,8 @@ TEST(TransferApply, ResultsOfTheWrongSizeAreRefused) {
   const Transfer transfer = matrixTransfer(20, 1, 2, DType::f32, dense);
   std::vector<Rgb> small(79);
   EXPECT_THROW(transferredRadiance(transfer, randomLight(2), small), ValueError);
-  EXPECT_THROW(matrixBlocks(dense, 19, 1, 2, DType::f32), ValueError);
-  EXPECT_THROW(matrixBlocks(dense, 20, 1, 2, DType::u8), ValueError);
+  EXPECT_THROW(packedMatrices(dense, 19, 1, 2, DType::f32), ValueError);
+  EXPECT_THROW(packedMatrices(dense, 20, 1, 2, DType::u8), ValueError);
 }
 
 }  // namespace
