@@ -97,13 +97,12 @@ void checkShapes(const Transfer& t) {
   const std::string stage = "transfer";
   const auto samples = std::int64_t(t.samples);
   const std::int64_t k = t.functions(), wide = std::int64_t(2 * t.bands - 1) * (2 * t.bands - 1);
-  const auto blocks = std::int64_t((t.samples + kMatrixLanes - 1) / kMatrixLanes);
   if (t.channels != 1 && t.channels != 3) unfit(stage);
   switch (t.form) {
     case TransferForm::None: break;
     case TransferForm::Diffuse: requireShape(t.values, vectorShape(samples, k, t.channels), true, stage); break;
     case TransferForm::Visibility: requireShape(t.values, {samples, wide}, true, stage); break;
-    case TransferForm::Matrix: requireShape(t.values, {blocks, t.channels, k, k, std::int64_t(kMatrixLanes)}, true, stage); break;
+    case TransferForm::Matrix: requireShape(t.values, {samples, t.channels, k, k}, true, stage); break;
   }
   if (t.form == TransferForm::Visibility || t.form == TransferForm::Matrix)
     requireShape(t.diffuse, vectorShape(samples, k, t.channels), false, stage);
