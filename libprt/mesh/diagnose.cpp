@@ -1,5 +1,6 @@
 #include "libprt/mesh/diagnose.h"
 
+#include "libprt/mesh/cancel_check.h"
 #include "libprt/mesh/cavity.h"
 #include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/edges.h"
@@ -18,7 +19,7 @@ bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) &&
 class Diagnosis {
  public:
   Diagnosis(const PolygonSoup& soup, std::span<const std::uint32_t> representative, Job& job)
-      : soup_(soup), job_(job), representative_(representative) {}
+      : soup_(soup), job_(job), check_(job), representative_(representative) {}
 
   MeshReport run() {
     job_.begin("diagnose", 6, "steps");
@@ -30,7 +31,7 @@ class Diagnosis {
     step();
     duplicateFaces();
     step();
-    const MeshEdges edges(soup_.faceStart, corners_, skip_);
+    const MeshEdges edges(soup_.faceStart, corners_, skip_, job_);
     step();
     components();
     edgesAndSurfaces(edges);
@@ -49,6 +50,7 @@ class Diagnosis {
 
   void vertices() {
     for (std::size_t v = 0; v < representative_.size(); ++v) {
+      check_();
       if (!finite(soup_.positions[v])) report_.nonFiniteVertices.add(std::uint32_t(v));
       if (representative_[v] != v) report_.duplicateVertices.add(std::uint32_t(v));
     }
@@ -60,6 +62,7 @@ class Diagnosis {
     skip_.assign(soup_.faceCount(), false);
     std::vector<bool> referenced(soup_.positions.size(), false), used(soup_.positions.size(), false);
     for (std::size_t f = 0; f < soup_.faceCount(); ++f) {
+      check_();
       bool inRange = true, isFinite = true;
       for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) {
         const std::uint32_t v = soup_.cornerVertex[c];
@@ -125,42 +128,36 @@ class Diagnosis {
     return !(length(area) > 1e-10 * longest2);  // also when the numbers overflow
   }
 
-  /// Faces over the same positions: sorted corner lists, grouped by hash, compared in full.
+  std::vector<std::uint32_t> sortedFace(std::uint32_t f) const {
+    std::vector<std::uint32_t> list(weldedFace(f).begin(), weldedFace(f).end());
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  /// Faces over the same positions: found by a hash that no order changes, then compared in full.
   void duplicateFaces() {
-    struct Hashed {
-      std::uint64_t hash;
-      std::uint32_t face;
-    };
-    const auto sorted = [&](std::uint32_t f) {
-      const auto face = weldedFace(f);
-      std::vector<std::uint32_t> list(face.begin(), face.end());
-      std::sort(list.begin(), list.end());
-      return list;
-    };
-    std::vector<Hashed> hashes;
-    hashes.reserve(solidFaces_);
+    DenseIndex<2> hashes(solidFaces_);
+    std::vector<std::uint32_t> firstWith;
     for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      check_();
       if (skip_[f]) continue;
-      std::uint64_t hash = 0x9e3779b97f4a7c15u;
-      for (std::uint32_t v : sorted(f)) hash = (hash ^ (hash >> 29) ^ v) * 0xbf58476d1ce4e5b9u;
-      hashes.push_back({hash, f});
+      std::uint64_t hash = 0;
+      for (std::uint32_t v : weldedFace(f)) {
+        const std::uint64_t mixed = (v + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+        hash += (mixed ^ (mixed >> 31)) * 0x94d049bb133111ebu;
+      }
+      const std::uint32_t number = hashes.insert({std::uint32_t(hash), std::uint32_t(hash >> 32)});
+      if (number == firstWith.size())
+        firstWith.push_back(f);
+      else if (sortedFace(f) == sortedFace(firstWith[number]))
+        report_.duplicateFaces.add(f);
     }
-    std::sort(hashes.begin(), hashes.end(),
-              [](const Hashed& x, const Hashed& y) { return x.hash != y.hash ? x.hash < y.hash : x.face < y.face; });
-    std::vector<std::uint32_t> duplicates;
-    for (std::size_t i = 1, first = 0; i < hashes.size(); ++i) {
-      if (hashes[i].hash != hashes[first].hash)
-        first = i;
-      else if (sorted(hashes[i].face) == sorted(hashes[first].face))
-        duplicates.push_back(hashes[i].face);
-    }
-    std::sort(duplicates.begin(), duplicates.end());
-    for (std::uint32_t f : duplicates) report_.duplicateFaces.add(f);
   }
 
   void components() {
     UnionFind pieces(soup_.positions.size());
     for (std::size_t f = 0; f < skip_.size(); ++f) {
+      check_();
       if (skip_[f]) continue;
       for (std::uint32_t v : weldedFace(f)) pieces.join(weldedFace(f)[0], v);
     }
@@ -181,6 +178,7 @@ class Diagnosis {
     UnionFind surfaces(soup_.faceCount());
     std::vector<bool> open(soup_.faceCount(), false);
     for (std::size_t e = 0; e < edges.size(); ++e) {
+      check_();
       const MeshEdge edge = edges[e];
       const std::size_t count = edge.faceCount();
       for (std::uint32_t side : edge.sides) {
@@ -199,6 +197,7 @@ class Diagnosis {
     std::vector<double> volume(soup_.faceCount(), 0.0), area(soup_.faceCount(), 0.0);
     std::vector<bool> closed(soup_.faceCount(), true);
     for (std::uint32_t f = 0; f < skip_.size(); ++f) {
+      check_();
       if (skip_[f]) continue;
       const std::uint32_t root = surfaces.find(f);
       if (open[f]) closed[root] = false;
@@ -227,11 +226,11 @@ class Diagnosis {
   }
 
   /// True when the other closed surfaces wind around this one.
-  bool insideAnother(std::uint32_t surface, UnionFind& surfaces, const std::vector<bool>& closed) const {
+  bool insideAnother(std::uint32_t surface, UnionFind& surfaces, const std::vector<bool>& closed) {
     const DVec3 point = soup_.positions[weldedFace(surface)[0]];
     double angle = 0;
     for (std::uint32_t f = 0; f < skip_.size(); ++f) {
-      if (f % 65536 == 0) job_.checkCancelled();
+      check_();
       if (skip_[f]) continue;
       const std::uint32_t root = surfaces.find(f);
       if (root == surface || !closed[root]) continue;
@@ -246,7 +245,7 @@ class Diagnosis {
       for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c)
         next[c] = c + 1 < soup_.faceStart[f + 1] ? c + 1 : soup_.faceStart[f];
     UnionFind fans = cornerFans(
-        edges, corners_, [&](std::uint32_t c) { return next[c]; }, [](const MeshEdge&) { return true; });
+        edges, corners_, [&](std::uint32_t c) { return next[c]; }, [](const MeshEdge&) { return true; }, job_);
     nonManifoldVertices(fans);
     boundaryLoops(edges, fans, next);
   }
@@ -255,6 +254,7 @@ class Diagnosis {
     std::vector<std::uint32_t> fanOf(soup_.positions.size(), kNoIndex);
     std::vector<bool> several(soup_.positions.size(), false);
     for (std::size_t f = 0; f < soup_.faceCount(); ++f) {
+      check_();
       if (skip_[f]) continue;
       for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) {
         std::uint32_t& fan = fanOf[corners_[c]];
@@ -283,6 +283,7 @@ class Diagnosis {
 
   const PolygonSoup& soup_;
   Job& job_;
+  CancelCheck check_;
   MeshReport report_;
   std::span<const std::uint32_t> representative_;  // [V] the vertex that stands for each
   std::vector<std::uint32_t> corners_;         // [C] representatives
@@ -304,7 +305,7 @@ MeshReport diagnose(const PolygonSoup& soup, std::span<const std::uint32_t> repr
 }
 
 MeshReport diagnose(const PolygonSoup& soup, Job& job) {
-  return diagnose(soup, weldByPosition(soup.positions), job);
+  return diagnose(soup, weldByPosition(soup.positions, job), job);
 }
 
 MeshReport diagnose(const TriMesh& mesh, Job& job) {

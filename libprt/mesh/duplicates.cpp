@@ -1,5 +1,6 @@
 #include "libprt/mesh/duplicates.h"
 
+#include "libprt/mesh/cancel_check.h"
 #include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/edges.h"
 
@@ -22,12 +23,14 @@ bool sameWinding(const UVec3& a, const UVec3& b) {
 
 }  // namespace
 
-std::vector<bool> duplicateTriangles(std::span<const UVec3> triangles) {
+std::vector<bool> duplicateTriangles(std::span<const UVec3> triangles, Job& job) {
+  CancelCheck check(job);
   // Group triangles over the same vertices.
   DenseIndex<3> index(triangles.size());
   std::vector<Group> groups;
   std::vector<std::uint32_t> groupOf(triangles.size());
   for (std::uint32_t f = 0; f < triangles.size(); ++f) {
+    check();
     std::array<std::uint32_t, 3> key{triangles[f].x, triangles[f].y, triangles[f].z};
     std::sort(key.begin(), key.end());
     groupOf[f] = index.insert(key);
@@ -41,9 +44,10 @@ std::vector<bool> duplicateTriangles(std::span<const UVec3> triangles) {
   if (groups.size() == triangles.size()) return drop;
 
   // A fin: wound both ways alike, two single triangles at one of its edges at least, one at none.
-  const MeshEdges edges(triangles);
+  const MeshEdges edges(triangles, job);
   std::vector<std::uint32_t> singles(3 * triangles.size(), 0);  // of each side's edge
   for (std::size_t e = 0; e < edges.size(); ++e) {
+    check();
     std::uint32_t count = 0;
     for (std::uint32_t side : edges[e].sides) count += groups[groupOf[side / 3]].count == 1;
     for (std::uint32_t side : edges[e].sides) singles[side] = count;

@@ -2,6 +2,7 @@
 // The undirected edges of triangles or polygons, non-manifold ones included, and the fans of corners
 // around their vertices.
 
+#include "libprt/core/job.h"
 #include "libprt/core/math.h"
 #include "libprt/mesh/union_find.h"
 
@@ -27,14 +28,15 @@ struct MeshEdge {
   std::uint32_t triangle(std::size_t side) const { return sides[side] / 3; }
 };
 
-/// All edges of a mesh, sorted by (a, b). Sides from a vertex to itself are left out. Near linear.
+/// All edges of a mesh, sorted by (a, b). Sides from a vertex to itself are left out. Linear but for the
+/// sorting around each vertex; can be cancelled.
 class MeshEdges {
  public:
-  explicit MeshEdges(std::span<const UVec3> triangles);
+  MeshEdges(std::span<const UVec3> triangles, Job& job);
   /// Polygons: corners of face f are faceStart[f] .. faceStart[f+1] - 1 of cornerVertex. Faces for which
   /// `skip` is true take no part (empty = none is skipped).
   MeshEdges(std::span<const std::uint32_t> faceStart, std::span<const std::uint32_t> cornerVertex,
-            const std::vector<bool>& skip);
+            const std::vector<bool>& skip, Job& job);
 
   std::size_t size() const { return keys_.size(); }
   MeshEdge operator[](std::size_t edge) const {
@@ -46,10 +48,9 @@ class MeshEdges {
 
  private:
   struct Side {
-    std::uint64_t key;
-    std::uint32_t corner;
+    std::uint32_t a, b, corner;  // a < b
   };
-  void build(std::vector<Side>& sides);
+  void build(const std::vector<Side>& sides, Job& job);
 
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint32_t> starts_;
@@ -63,6 +64,6 @@ inline std::uint32_t nextInTriangle(std::uint32_t corner) { return corner % 3 ==
 /// is a fan of faces around its vertex.
 UnionFind cornerFans(const MeshEdges& edges, std::span<const std::uint32_t> cornerVertex,
                      const std::function<std::uint32_t(std::uint32_t)>& nextCorner,
-                     const std::function<bool(const MeshEdge&)>& joins);
+                     const std::function<bool(const MeshEdge&)>& joins, Job& job);
 
 }  // namespace prt

@@ -1,6 +1,7 @@
 #pragma once
 // A surface taken apart where it is not a manifold.
 
+#include "libprt/core/job.h"
 #include "libprt/core/math.h"
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct FanSplit {
 
 /// Gives every fan of triangles around a vertex its own vertex. Fans are parted by edges of more or fewer
 /// than two triangles and by edges along which two triangles run in the same direction, so that what comes
-/// out is an oriented manifold with boundary. Near linear.
-FanSplit splitIntoFans(std::span<const UVec3> triangles, std::size_t vertexCount);
+/// out is an oriented manifold with boundary. Near linear; can be cancelled.
+FanSplit splitIntoFans(std::span<const UVec3> triangles, std::size_t vertexCount, Job& job);
 
 }  // namespace prt

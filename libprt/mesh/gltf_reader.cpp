@@ -33,7 +33,7 @@ using DMat3 = glm::dmat3;
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const MeshSource& source, Job& job)
-      : source_(source), job_(job), container_(openGltf(bytes, source, job)), cornerLimit_((1u << 20) + 256 * bytes.size()) {
+      : source_(source), job_(job), container_(openGltf(bytes, source, job)), cornerLimit_((1u << 16) + 128 * bytes.size()) {
     tinygltf::TinyGLTF parser;
     std::string error, warning;
     const auto length = unsigned(std::min<std::size_t>(container_.json.size(), std::numeric_limits<unsigned>::max()));

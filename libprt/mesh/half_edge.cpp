@@ -45,11 +45,11 @@ struct HalfEdgeMesh::Kernel : OpenMesh::TriMesh_ArrayKernelT<BareTraits> {
 
 HalfEdgeMesh::HalfEdgeMesh(const TriMesh& mesh, Job& job) : kernel_(std::make_unique<Kernel>()) {
   // Join vertices by position, then part what is no manifold.
-  const std::vector<std::uint32_t> welded = weldByPosition(std::span<const Vec3>(mesh.positions));
+  const std::vector<std::uint32_t> welded = weldByPosition(std::span<const Vec3>(mesh.positions), job);
   std::vector<UVec3> triangles;
   triangles.reserve(mesh.triangleCount());
   for (const UVec3& t : mesh.triangles) triangles.push_back({welded[t.x], welded[t.y], welded[t.z]});
-  FanSplit fans = splitIntoFans(triangles, mesh.vertexCount());
+  FanSplit fans = splitIntoFans(triangles, mesh.vertexCount(), job);
 
   // Number the vertices that triangles use.
   std::vector<std::uint32_t> number(fans.source.size(), kNoNeighbour);

@@ -127,7 +127,8 @@ std::uint32_t cornerOpposite(const UVec3& t, std::uint32_t a, std::uint32_t b) {
 
 /// Flips every edge whose opposite angles add up to more than pi, each triangle at most once a sweep.
 void flipTowardsDelaunay(TriMesh& mesh) {
-  const MeshEdges edges(mesh.triangles);
+  Job unwatched;  // a generated shape takes less than a second
+  const MeshEdges edges(mesh.triangles, unwatched);
   std::unordered_set<std::uint64_t> present;
   present.reserve(edges.size() * 2);
   for (std::size_t i = 0; i < edges.size(); ++i) present.insert(edgeKey(edges[i].a, edges[i].b));

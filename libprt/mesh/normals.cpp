@@ -1,5 +1,6 @@
 #include "libprt/mesh/normals.h"
 
+#include "libprt/mesh/cancel_check.h"
 #include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/edges.h"
 
@@ -11,10 +12,12 @@ struct CornerGeometry {
   double angle;  ///< at the corner
 };
 
-std::vector<CornerGeometry> cornerGeometry(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
+std::vector<CornerGeometry> cornerGeometry(std::span<const Vec3> positions, std::span<const UVec3> triangles, Job& job) {
+  CancelCheck check(job);
   std::vector<CornerGeometry> corners;
   corners.reserve(3 * triangles.size());
   for (const UVec3& t : triangles) {
+    check();
     const DVec3 p[3] = {DVec3(positions[t.x]), DVec3(positions[t.y]), DVec3(positions[t.z])};
     const DVec3 area = cross(p[1] - p[0], p[2] - p[0]);
     const double size = length(area);
@@ -54,12 +57,14 @@ Vec3 normalised(const Vec3& v) {
 
 /// Corners whose file normal is usable get it; returns which.
 std::vector<bool> keepFromFile(const CornerNormalInput& in, const std::vector<CornerGeometry>& geometry,
-                               CornerNormals& out) {
+                               CornerNormals& out, Job& job) {
+  CancelCheck check(job);
   std::vector<bool> kept(geometry.size(), false);
   if (in.fromFile.empty()) return kept;
   DenseIndex<4> index(in.positions.size());
   std::vector<std::uint32_t> group(geometry.size());
   for (std::size_t c = 0; c < geometry.size(); ++c) {
+    check();
     out.normals[c] = normalised(in.fromFile[c]);
     const Vec3& n = out.normals[c];
     group[c] = index.insert({in.triangles[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)});
@@ -75,17 +80,19 @@ std::vector<bool> keepFromFile(const CornerNormalInput& in, const std::vector<Co
 }
 
 /// One group per vertex, or per fan between creases.
-std::vector<std::uint32_t> smoothGroups(const CornerNormalInput& in, const std::vector<CornerGeometry>& geometry) {
+std::vector<std::uint32_t> smoothGroups(const CornerNormalInput& in, const std::vector<CornerGeometry>& geometry,
+                                        Job& job) {
   std::vector<std::uint32_t> vertex;
   vertex.reserve(3 * in.triangles.size());
   for (const UVec3& t : in.triangles) vertex.insert(vertex.end(), {t.x, t.y, t.z});
   if (in.creaseAngle >= kPiF) return vertex;
-  const MeshEdges edges(in.triangles);
+  const MeshEdges edges(in.triangles, job);
   const double smallest = std::cos(double(in.creaseAngle)) - 1e-9;
-  UnionFind fans = cornerFans(edges, vertex, nextInTriangle, [&](const MeshEdge& edge) {
+  const auto joins = [&](const MeshEdge& edge) {
     const bool smooth = dot(geometry[edge.sides[0]].normal, geometry[edge.sides[1]].normal) >= smallest;
     return edge.faceCount() == 2 && vertex[edge.sides[0]] != vertex[edge.sides[1]] && smooth;
-  });
+  };
+  UnionFind fans = cornerFans(edges, vertex, nextInTriangle, joins, job);
   for (std::uint32_t c = 0; c < vertex.size(); ++c) vertex[c] = fans.find(c);
   return vertex;
 }
@@ -93,7 +100,8 @@ std::vector<std::uint32_t> smoothGroups(const CornerNormalInput& in, const std::
 }  // namespace
 
 std::vector<Vec3> angleWeightedNormals(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
-  const std::vector<CornerGeometry> geometry = cornerGeometry(positions, triangles);
+  Job unwatched;
+  const std::vector<CornerGeometry> geometry = cornerGeometry(positions, triangles, unwatched);
   GroupNormals vertices(positions.size());
   for (std::size_t c = 0; c < geometry.size(); ++c) vertices.add(triangles[c / 3][int(c % 3)], geometry[c]);
   std::vector<Vec3> normals;
@@ -102,18 +110,23 @@ std::vector<Vec3> angleWeightedNormals(std::span<const Vec3> positions, std::spa
   return normals;
 }
 
-CornerNormals cornerNormals(const CornerNormalInput& in) {
+CornerNormals cornerNormals(const CornerNormalInput& in, Job& job) {
+  CancelCheck check(job);
   CornerNormals out;
   out.normals.resize(3 * in.triangles.size());
-  const std::vector<CornerGeometry> geometry = cornerGeometry(in.positions, in.triangles);
-  const std::vector<bool> kept = keepFromFile(in, geometry, out);
+  const std::vector<CornerGeometry> geometry = cornerGeometry(in.positions, in.triangles, job);
+  const std::vector<bool> kept = keepFromFile(in, geometry, out, job);
   if (out.kept == geometry.size()) return out;
-  const std::vector<std::uint32_t> group = smoothGroups(in, geometry);
+  const std::vector<std::uint32_t> group = smoothGroups(in, geometry, job);
   GroupNormals groups(std::max(in.positions.size(), geometry.size()));
-  for (std::size_t c = 0; c < geometry.size(); ++c)
+  for (std::size_t c = 0; c < geometry.size(); ++c) {
+    check();
     if (!kept[c]) groups.add(group[c], geometry[c]);
-  for (std::size_t c = 0; c < geometry.size(); ++c)
+  }
+  for (std::size_t c = 0; c < geometry.size(); ++c) {
+    check();
     if (!kept[c]) out.normals[c] = Vec3(groups.normal(group[c]));
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Shading normals: from geometry, or a file's where they make sense.
 
+#include "libprt/core/job.h"
 #include "libprt/mesh/mesh.h"
 
 #include <span>
@@ -30,7 +31,7 @@ struct CornerNormals {
 /// A file's normal is kept when it is finite, not zero, and within 90 degrees of the angle-weighted normal
 /// of all corners at its vertex that share it; it is normalised. The other corners get the angle-weighted
 /// normal of their fan: of all other corners at their vertex, or of those reached across edges that are no
-/// crease. Near linear.
-CornerNormals cornerNormals(const CornerNormalInput& input);
+/// crease. Near linear; can be cancelled.
+CornerNormals cornerNormals(const CornerNormalInput& input, Job& job);
 
 }  // namespace prt

@@ -21,7 +21,7 @@ struct Surface {
 class Orienter {
  public:
   Orienter(const OrientationInput& input, Job& job)
-      : in_(input), job_(job), edges_(input.triangles), flip_(input.triangles.size(), false),
+      : in_(input), job_(job), edges_(input.triangles, job), flip_(input.triangles.size(), false),
         surfaceOf_(input.triangles.size(), kNone) {
     edgeOfSide_.assign(3 * input.triangles.size(), kNone);
     for (std::size_t e = 0; e < edges_.size(); ++e)

@@ -1,6 +1,7 @@
 #include "libprt/mesh/repair.h"
 
 #include "libprt/core/error.h"
+#include "libprt/mesh/cancel_check.h"
 #include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/duplicates.h"
 #include "libprt/mesh/fans.h"
@@ -25,7 +26,7 @@ bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) &&
 
 class Repair {
  public:
-  Repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) : soup_(soup), options_(options), job_(job) {}
+  Repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) : soup_(soup), options_(options), job_(job), check_(job) {}
 
   RepairedMesh run() {
     report_.before = diagnose(soup_, job_);
@@ -92,7 +93,7 @@ class Repair {
   void weld() {
     vertexOf_.resize(positions_.size());
     if (options_.weld)
-      vertexOf_ = weldByPosition(positions_);
+      vertexOf_ = weldByPosition(positions_, job_);
     else
       for (std::uint32_t v = 0; v < vertexOf_.size(); ++v) vertexOf_[v] = v;
   }
@@ -101,7 +102,7 @@ class Repair {
   void cutIntoTriangles() {
     std::vector<DVec3> outline;
     for (std::uint32_t f = 0; f < soup_.faceCount(); ++f) {
-      if (f % 16384 == 0) job_.checkCancelled();
+      check_();
       const auto face = soup_.face(f);
       if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= soup_.positions.size(); })) {
         ++report_.droppedOutOfRange;
@@ -140,7 +141,7 @@ class Repair {
 
   void dropDuplicates() {
     if (!options_.dropDuplicateFaces) return;
-    const std::vector<bool> drop = duplicateTriangles(triangles_);
+    const std::vector<bool> drop = duplicateTriangles(triangles_, job_);
     std::size_t kept = 0;
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       if (drop[f]) continue;
@@ -184,7 +185,7 @@ class Repair {
   }
 
   void split() {
-    FanSplit fans = splitIntoFans(triangles_, positions_.size());
+    FanSplit fans = splitIntoFans(triangles_, positions_.size(), job_);
     report_.splitVertices = fans.source.size() - positions_.size();
     for (std::size_t v = positions_.size(); v < fans.source.size(); ++v) positions_.push_back(positions_[fans.source[v]]);
     triangles_ = std::move(fans.triangles);
@@ -200,7 +201,7 @@ class Repair {
           fromFile.push_back(!flipped_.empty() && flipped_[f] ? -n : n);
         }
     }
-    cornerNormals_ = cornerNormals({positions_, triangles_, fromFile, options_.creaseAngle});
+    cornerNormals_ = cornerNormals({positions_, triangles_, fromFile, options_.creaseAngle}, job_);
     report_.keptNormals = cornerNormals_.kept;
     report_.computedNormals = 3 * triangles_.size() - cornerNormals_.kept;
   }
@@ -212,6 +213,7 @@ class Repair {
     DenseIndex<4> variants(positions_.size());
     std::vector<std::uint32_t> variantOfCorner, fileVertex;
     for (std::size_t c = 0; c < 3 * triangles_.size(); ++c) {
+      check_();
       const Vec3& n = cornerNormals_.normals[c];
       const std::uint32_t original = soup_.cornerVertex[corners_[c / 3][int(c % 3)]];
       const std::uint32_t variant = variants.insert({triangles_[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)});
@@ -250,6 +252,7 @@ class Repair {
     std::vector<std::uint32_t> vertexOfVariant(variants.size()), firstAt(positions_.size(), kNoIndex);
     std::size_t places = 0;
     for (std::uint32_t i = 0; i < variants.size(); ++i) {
+      check_();
       const auto& [place, x, y, z] = variants.key(i);
       const std::uint32_t vertex = vertexOfVariant[i] = start[fileVertex[i]]++;
       mesh.positions[vertex] = positions_[place];
@@ -310,6 +313,7 @@ class Repair {
   const PolygonSoup& soup_;
   const RepairOptions& options_;
   Job& job_;
+  CancelCheck check_;
   RepairReport report_;
   std::vector<Vec3> positions_;             // [V], and copies made by splitting
   std::vector<std::uint32_t> vertexOf_;     // [V] the vertex that stands for each

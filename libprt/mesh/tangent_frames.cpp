@@ -31,8 +31,8 @@ Vec3 transported(const Vec3& v, const Vec3& from, const Vec3& to) {
 struct Neighbours {
   std::vector<std::uint32_t> start, list;
 
-  explicit Neighbours(const TriMesh& mesh) : start(mesh.vertexCount() + 1, 0) {
-    const MeshEdges edges(mesh.triangles);
+  Neighbours(const TriMesh& mesh, Job& job) : start(mesh.vertexCount() + 1, 0) {
+    const MeshEdges edges(mesh.triangles, job);
     for (std::size_t e = 0; e < edges.size(); ++e) ++start[edges[e].a + 1], ++start[edges[e].b + 1];
     for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
     list.resize(start.back());
@@ -47,67 +47,39 @@ struct Neighbours {
   }
 };
 
-class DirectionField {
- public:
-  DirectionField(const TriMesh& mesh, Job& job) : mesh_(mesh), job_(job), neighbours_(mesh) {}
+/// A vector field that is a continuous function of the normal: eastwards, and a little along +X so that
+/// level places have a direction too. It vanishes for two normals only, thirty degrees off +-Y towards -Z.
+Vec3 fieldOf(const Vec3& n) {
+  const Vec3 east = cross(Vec3(0, 1, 0), n), alongX = Vec3(1, 0, 0) - n.x * n;
+  return east + 0.5f * alongX;
+}
 
-  std::vector<Vec3> run(int sweeps) {
-    start();
-    grow();
-    for (int sweep = 0; sweep < sweeps; ++sweep) smooth();
-    return std::move(field_);
+/// Gauss-Seidel: each vector becomes the mean of its neighbours', carried over, and itself. Lengths are kept,
+/// so that opposing neighbours make a short vector that the rest can turn.
+void smooth(std::vector<Vec3>& field, const TriMesh& mesh, const Neighbours& neighbours, Job& job) {
+  for (std::uint32_t v = 0; v < field.size(); ++v) {
+    if (v % 65536 == 0) job.checkCancelled();
+    const Vec3& n = mesh.normals[v];
+    const auto around = neighbours.of(v);
+    Vec3 sum = field[v];
+    for (std::uint32_t other : around) sum += transported(field[other], mesh.normals[other], n);
+    field[v] = (sum - dot(sum, n) * n) / float(1 + around.size());
   }
+}
 
- private:
-  /// Eastwards where that is well defined: where the normal is more than about 17 degrees off +-Y.
-  void start() {
-    field_.assign(mesh_.vertexCount(), Vec3(0));
-    for (std::uint32_t v = 0; v < field_.size(); ++v) {
-      const Vec3 east = cross(Vec3(0, 1, 0), mesh_.normals[v]);
-      if (length(east) < 0.3f) continue;
-      field_[v] = normalize(east);
-      front_.push_back(v);
-    }
+/// [V] unit tangents.
+std::vector<Vec3> directionField(const TriMesh& mesh, int sweeps, Job& job) {
+  std::vector<Vec3> field;
+  field.reserve(mesh.vertexCount());
+  for (const Vec3& n : mesh.normals) field.push_back(fieldOf(n));
+  const Neighbours neighbours(mesh, job);
+  for (int sweep = 0; sweep < sweeps; ++sweep) smooth(field, mesh, neighbours, job);
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    const Vec3 unit = length(field[v]) > 1e-12f ? tangentPart(normalize(field[v]), mesh.normals[v]) : Vec3(0);
+    field[v] = unit == Vec3(0) ? frameFromNormal(mesh.normals[v]).tangent : unit;
   }
-
-  /// Breadth first from what is known; a piece where nothing is known starts with +X.
-  void grow() {
-    std::size_t next = 0;
-    for (std::uint32_t seed = 0;; ++seed) {
-      for (; next < front_.size(); ++next) {
-        if (next % 65536 == 0) job_.checkCancelled();
-        const std::uint32_t v = front_[next];
-        for (std::uint32_t other : neighbours_.of(v)) {
-          if (field_[other] != Vec3(0)) continue;
-          const Vec3 carried = tangentPart(transported(field_[v], mesh_.normals[v], mesh_.normals[other]), mesh_.normals[other]);
-          field_[other] = carried == Vec3(0) ? frameFromNormal(mesh_.normals[other]).tangent : carried;
-          front_.push_back(other);
-        }
-      }
-      while (seed < field_.size() && field_[seed] != Vec3(0)) ++seed;
-      if (seed >= field_.size()) return;
-      const Vec3 along = tangentPart(Vec3(1, 0, 0), mesh_.normals[seed]);
-      field_[seed] = along == Vec3(0) ? frameFromNormal(mesh_.normals[seed]).tangent : along;
-      front_.push_back(seed);
-    }
-  }
-
-  void smooth() {
-    for (std::uint32_t v = 0; v < field_.size(); ++v) {
-      if (v % 65536 == 0) job_.checkCancelled();
-      Vec3 sum = field_[v];
-      for (std::uint32_t other : neighbours_.of(v)) sum += transported(field_[other], mesh_.normals[other], mesh_.normals[v]);
-      const Vec3 mean = tangentPart(sum, mesh_.normals[v]);
-      if (mean != Vec3(0)) field_[v] = mean;
-    }
-  }
-
-  const TriMesh& mesh_;
-  Job& job_;
-  const Neighbours neighbours_;
-  std::vector<Vec3> field_;
-  std::vector<std::uint32_t> front_;
-};
+  return field;
+}
 
 // ---------------------------------------------------------------------------------------------------------
 // With UVs
@@ -136,7 +108,7 @@ double cornerAngle(const TriMesh& mesh, std::size_t f, int corner) {
 
 /// [3F] tangents, zero where UVs say nothing.
 std::vector<Vec3> tangentsFromUvs(const TriMesh& mesh, Job& job) {
-  const std::vector<std::uint32_t> place = weldByPosition(std::span<const Vec3>(mesh.positions));
+  const std::vector<std::uint32_t> place = weldByPosition(std::span<const Vec3>(mesh.positions), job);
   DenseIndex<3> groups(mesh.uv.size());
   std::vector<std::uint32_t> groupOf(3 * mesh.triangleCount());
   std::vector<DVec3> sums;
@@ -171,7 +143,7 @@ TangentFrames makeTangentFrames(const TriMesh& mesh, const TangentOptions& optio
   if (options.fromUvs && !mesh.uv.empty()) frames.tangents = tangentsFromUvs(mesh, job);
   const auto missing = [](const Vec3& t) { return t == Vec3(0); };
   if (std::none_of(frames.tangents.begin(), frames.tangents.end(), missing)) return frames;
-  const std::vector<Vec3> field = DirectionField(mesh, job).run(std::clamp(options.sweeps, 0, 1000));
+  const std::vector<Vec3> field = directionField(mesh, std::clamp(options.sweeps, 0, 1000), job);
   for (std::size_t c = 0; c < frames.tangents.size(); ++c)
     if (missing(frames.tangents[c])) frames.tangents[c] = field[mesh.triangles[c / 3][int(c % 3)]];
   return frames;

@@ -29,11 +29,11 @@ struct TangentOptions {
 /// tangent along u; the frame is right-handed all the same. A corner without usable UVs at all gets one of
 /// the next kind.
 ///
-/// Without: a direction field over the vertices. It starts as +Y x normal (eastwards on a globe) wherever
-/// the normal is far enough from +-Y, grows from there by parallel transport (the least turn between
-/// normals), or from +X where a whole piece is level, and is smoothed by Gauss-Seidel sweeps of transported
-/// neighbours. It is continuous but for the few singular triangles that the topology demands (their indices
-/// add up to the Euler number) and for creases, across which no field is sought.
+/// Without: a direction field over the vertices. It starts as a continuous function of the normal, roughly
+/// +Y x normal (eastwards on a globe) and +X on level ground, and is smoothed by Gauss-Seidel sweeps, each
+/// vertex taking the mean of its neighbours' vectors carried over by the least turn between normals. It is
+/// continuous but for singular triangles, whose indices add up to the Euler number, and for creases, across
+/// which nothing is carried.
 ///
 /// Deterministic. Throws Cancelled.
 TangentFrames makeTangentFrames(const TriMesh& mesh, const TangentOptions& options, Job& job);

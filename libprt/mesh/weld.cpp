@@ -1,5 +1,6 @@
 #include "libprt/mesh/weld.h"
 
+#include "libprt/mesh/cancel_check.h"
 #include "libprt/mesh/dense_index.h"
 
 namespace prt {
@@ -20,11 +21,13 @@ Key keyOf(const DVec3& p) {
 }
 
 template <class Point>
-std::vector<std::uint32_t> weld(std::span<const Point> positions) {
+std::vector<std::uint32_t> weld(std::span<const Point> positions, Job& job) {
+  CancelCheck check(job);
   DenseIndex<6> index(positions.size());
   std::vector<std::uint32_t> firstOf, representative(positions.size());
   firstOf.reserve(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
+    check();
     representative[v] = std::uint32_t(v);
     const DVec3 p(positions[v]);
     if (!finite(p)) continue;
@@ -37,7 +40,7 @@ std::vector<std::uint32_t> weld(std::span<const Point> positions) {
 
 }  // namespace
 
-std::vector<std::uint32_t> weldByPosition(std::span<const DVec3> positions) { return weld(positions); }
-std::vector<std::uint32_t> weldByPosition(std::span<const Vec3> positions) { return weld(positions); }
+std::vector<std::uint32_t> weldByPosition(std::span<const DVec3> positions, Job& job) { return weld(positions, job); }
+std::vector<std::uint32_t> weldByPosition(std::span<const Vec3> positions, Job& job) { return weld(positions, job); }
 
 }  // namespace prt

@@ -29,7 +29,8 @@ TEST(MeshEdges, MatchAMapOfEdges) {
       const std::uint32_t a = triangles[f][i], b = triangles[f][(i + 1) % 3];
       if (a != b) expected[{std::min(a, b), std::max(a, b)}].push_back(3 * f + std::uint32_t(i));
     }
-  const MeshEdges edges(triangles);
+  Job job;
+  const MeshEdges edges(triangles, job);
   ASSERT_EQ(edges.size(), expected.size());
   std::size_t e = 0;
   for (const auto& [key, sides] : expected) {
@@ -69,12 +70,14 @@ TEST(DenseIndex, NumbersKeysAsASetDoes) {
 TEST(Weld, FindsTheFirstAtEachPosition) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<DVec3> points{{0, 0, 0}, {1, 0, 0}, {-0.0, 0, -0.0}, {nan, 0, 0}, {nan, 0, 0}, {1, 0, 0}, {1 + 1e-15, 0, 0}};
-  EXPECT_THAT(weldByPosition(points), ElementsAre(0, 1, 0, 3, 4, 1, 6));
+  Job job;
+  EXPECT_THAT(weldByPosition(points, job), ElementsAre(0, 1, 0, 3, 4, 1, 6));
 }
 
 /// After splitting every edge has one triangle or two that run against each other, every vertex one fan.
 void expectManifold(const std::vector<UVec3>& triangles, std::size_t vertices) {
-  const FanSplit split = splitIntoFans(triangles, vertices);
+  Job job;
+  const FanSplit split = splitIntoFans(triangles, vertices, job);
   ASSERT_EQ(split.triangles.size(), triangles.size());
   std::vector<std::uint32_t> corner;
   for (std::size_t f = 0; f < triangles.size(); ++f)
@@ -82,14 +85,14 @@ void expectManifold(const std::vector<UVec3>& triangles, std::size_t vertices) {
       corner.push_back(split.triangles[f][i]);
       EXPECT_EQ(split.source[split.triangles[f][i]], triangles[f][i]);
     }
-  const MeshEdges edges(split.triangles);
+  const MeshEdges edges(split.triangles, job);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     ASSERT_LE(edges[e].faceCount(), 2u);
     if (edges[e].faceCount() == 2) {
       ASSERT_NE(corner[edges[e].sides[0]], corner[edges[e].sides[1]]);
     }
   }
-  UnionFind fans = cornerFans(edges, corner, nextInTriangle, [](const MeshEdge&) { return true; });
+  UnionFind fans = cornerFans(edges, corner, nextInTriangle, [](const MeshEdge&) { return true; }, job);
   std::map<std::uint32_t, std::uint32_t> fanOf;
   for (std::uint32_t c = 0; c < corner.size(); ++c) ASSERT_EQ(fanOf.try_emplace(corner[c], fans.find(c)).first->second, fans.find(c));
 }
@@ -97,7 +100,8 @@ void expectManifold(const std::vector<UVec3>& triangles, std::size_t vertices) {
 TEST(SplitIntoFans, LeavesManifoldsAlone) {
   for (const char* name : {"torus", "plane", "bird"}) {
     const TriMesh mesh = makeBuiltinMesh(name);
-    const FanSplit split = splitIntoFans(mesh.triangles, mesh.vertexCount());
+    Job job;
+    const FanSplit split = splitIntoFans(mesh.triangles, mesh.vertexCount(), job);
     EXPECT_EQ(split.triangles, mesh.triangles) << name;
     EXPECT_EQ(split.source.size(), mesh.vertexCount()) << name;
   }
@@ -117,9 +121,14 @@ TEST(SplitIntoFans, PartsAnythingIntoManifolds) {
   }
 }
 
+std::vector<bool> duplicates(const std::vector<UVec3>& triangles) {
+  Job job;
+  return duplicateTriangles(triangles, job);
+}
+
 TEST(DuplicateTriangles, KeepTheFirst) {
   const std::vector<UVec3> triangles{{0, 1, 2}, {2, 3, 4}, {1, 2, 0}, {2, 1, 0}, {5, 6, 7}};
-  EXPECT_THAT(duplicateTriangles(triangles), ElementsAre(false, false, true, true, false));
+  EXPECT_THAT(duplicates(triangles), ElementsAre(false, false, true, true, false));
 }
 
 TEST(DuplicateTriangles, FinsGoAltogether) {
@@ -128,20 +137,20 @@ TEST(DuplicateTriangles, FinsGoAltogether) {
   std::vector<UVec3> finned = solid;
   finned.push_back({0, 1, 4});
   finned.push_back({1, 0, 4});
-  EXPECT_THAT(duplicateTriangles(finned), ElementsAre(false, false, false, false, true, true));
+  EXPECT_THAT(duplicates(finned), ElementsAre(false, false, false, false, true, true));
   finned.pop_back();
-  EXPECT_THAT(duplicateTriangles(finned), testing::Each(false)) << "a single triangle is no fin";
+  EXPECT_THAT(duplicates(finned), testing::Each(false)) << "a single triangle is no fin";
 }
 
 TEST(DuplicateTriangles, WallsInsideASolidGoAltogether) {
   // Two tetrahedra on a shared face, each with its own copy of it.
   const std::vector<UVec3> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 1, 2}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
-  EXPECT_THAT(duplicateTriangles(triangles), ElementsAre(true, false, false, false, true, false, false, false));
+  EXPECT_THAT(duplicates(triangles), ElementsAre(true, false, false, false, true, false, false, false));
 }
 
 TEST(DuplicateTriangles, DoubledSheetsKeepOneSide) {
   const std::vector<UVec3> triangles{{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}};
-  EXPECT_THAT(duplicateTriangles(triangles), ElementsAre(false, false, true, true));
+  EXPECT_THAT(duplicates(triangles), ElementsAre(false, false, true, true));
 }
 
 }  // namespace

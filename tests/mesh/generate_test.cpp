@@ -16,7 +16,8 @@ struct Counts {
 };
 
 Counts countsOf(const TriMesh& mesh) {
-  const MeshEdges edges(mesh.triangles);
+  Job job;
+  const MeshEdges edges(mesh.triangles, job);
   Counts counts{.edges = edges.size()};
   for (std::size_t i = 0; i < edges.size(); ++i) {
     counts.boundary += edges[i].faceCount() == 1;

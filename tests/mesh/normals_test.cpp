@@ -42,7 +42,8 @@ TEST(Normals, CancellingTrianglesGetOneOfTheirs) {
 }
 
 CornerNormals corners(const TriMesh& mesh, std::vector<Vec3> fromFile, double creaseDegrees) {
-  return cornerNormals({mesh.positions, mesh.triangles, fromFile, float(radians(creaseDegrees))});
+  Job job;
+  return cornerNormals({mesh.positions, mesh.triangles, fromFile, float(radians(creaseDegrees))}, job);
 }
 
 /// A cube of eight vertices.
