@@ -70,7 +70,9 @@ Vec3 toHuntLab(const Rgb& c) {
 }
 
 /// Distance for large colour differences (Abasi et al. 2020).
-float hyab(const Vec3& a, const Vec3& b) { return std::abs(a.x - b.x) + length(Vec2(a.y - b.y, a.z - b.z)); }
+float hyab(const Vec3& a, const Vec3& b) {
+  return std::abs(a.x - b.x) + length(Vec2(a.y - b.y, a.z - b.z));
+}
 
 /// Compresses large colour differences to 0..1.
 float redistribute(float difference) {
@@ -86,10 +88,10 @@ void separable(const std::vector<float>& in, int width, int height, const Kernel
   std::vector<float> rows(in.size());
   const int ra = int(across.size() / 2), rd = int(down.size() / 2);
   parallelFor(job, 0, std::size_t(height), 16, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> padded(std::size_t(width + 2 * ra));
+    std::vector<float> padded(std::size_t(width) + across.size());
     for (std::size_t y = begin; y < end; ++y) {
       const float* line = in.data() + y * std::size_t(width);
-      for (int x = -ra; x < width + ra; ++x) padded[std::size_t(x + ra)] = line[std::clamp(x, 0, width - 1)];
+      for (std::size_t i = 0; i < padded.size(); ++i) padded[i] = line[std::clamp(int(i) - ra, 0, width - 1)];
       float* to = rows.data() + y * std::size_t(width);
       std::fill(to, to + width, 0.0f);
       for (std::size_t k = 0; k < across.size(); ++k)
@@ -99,10 +101,11 @@ void separable(const std::vector<float>& in, int width, int height, const Kernel
   out.assign(in.size(), 0.0f);
   parallelFor(job, 0, std::size_t(height), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y)
-      for (int k = -rd; k <= rd; ++k) {
-        const float* line = rows.data() + std::size_t(std::clamp(int(y) + k, 0, height - 1)) * std::size_t(width);
+      for (std::size_t k = 0; k < down.size(); ++k) {
+        const int row = std::clamp(int(y) + int(k) - rd, 0, height - 1);
+        const float* line = rows.data() + std::size_t(row) * std::size_t(width);
         float* to = out.data() + y * std::size_t(width);
-        for (int x = 0; x < width; ++x) to[x] += down[std::size_t(k + rd)] * line[x];
+        for (int x = 0; x < width; ++x) to[x] += down[k] * line[x];
       }
   });
 }
@@ -113,7 +116,8 @@ void filterChannel(const std::vector<float>& in, int width, int height, const Se
   const int radius = int(std::ceil(3 * std::sqrt(kWidestSensitivity / (2 * kPi * kPi)) * ppd));
   const auto gaussian = [&](double b) {
     Kernel k;
-    for (int i = -radius; i <= radius; ++i) k.push_back(float(std::exp(-kPi * kPi * i * i / (double(ppd) * ppd * b))));
+    for (int i = -radius; i <= radius; ++i)
+      k.push_back(float(std::exp(-kPi * kPi * i * i / (double(ppd) * ppd * b))));
     return k;
   };
   const auto total = [](const Kernel& k) {
@@ -138,7 +142,8 @@ Planes perceived(const Planes& opponent, float ppd, Job& job) {
   for (std::size_t c = 0; c < 3; ++c)
     filterChannel(opponent.plane[c], out.width, out.height, kSensitivity[c], ppd, out.plane[c], job);
   parallelFor(job, 0, out.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) out.set(i, toHuntLab(clamp(fromOpponent(out.at(i)), 0.0f, 1.0f)));
+    for (std::size_t i = begin; i < end; ++i)
+      out.set(i, toHuntLab(clamp(fromOpponent(out.at(i)), 0.0f, 1.0f)));
   });
   return out;
 }
@@ -196,7 +201,8 @@ std::vector<float> differenceMap(const Planes& image, const Planes& reference, f
   parallelFor(job, 0, map.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const float colour = redistribute(hyab(a.at(i), b.at(i)));
-      const float strongest = std::max(std::abs(fa.edge[i] - fb.edge[i]), std::abs(fa.point[i] - fb.point[i]));
+      const float strongest =
+          std::max(std::abs(fa.edge[i] - fb.edge[i]), std::abs(fa.point[i] - fb.point[i]));
       const float feature = std::pow(strongest * std::sqrt(0.5f), kFeatureExponent);
       map[i] = std::clamp(std::pow(colour, 1 - feature), 0.0f, 1.0f);
     }
@@ -245,7 +251,8 @@ void expectFit(const Image& image, const Image& reference, const PixelMask& mask
   if (!mask.empty() && mask.size() != image.pixels())
     throw ValueError("the mask has another size than the images", "FLIP", "make one entry per pixel");
   if (!(ppd >= 1 && ppd <= 1000))
-    throw ValueError("pixels per degree are out of range", "FLIP", "use 1 to 1000; a desk screen has about 67");
+    throw ValueError("pixels per degree are out of range", "FLIP",
+                     "use 1 to 1000; a desk screen has about 67");
 }
 
 /// The radiance that the filmic curve takes to `shown`.
@@ -258,7 +265,8 @@ float inverseFilmic(float shown) {
 void exposureRange(const Planes& reference, const PixelMask& mask, FlipResult& result) {
   std::vector<float> luminances;
   for (std::size_t i = 0; i < reference.pixels(); ++i)
-    if ((mask.empty() || mask[i]) && luminance(reference.at(i)) > 0) luminances.push_back(std::min(luminance(reference.at(i)), 1e30f));
+    if ((mask.empty() || mask[i]) && luminance(reference.at(i)) > 0)
+      luminances.push_back(std::min(luminance(reference.at(i)), 1e30f));
   if (luminances.empty()) return;
   const auto middle = luminances.begin() + std::ptrdiff_t(luminances.size() / 2);
   std::nth_element(luminances.begin(), middle, luminances.end());
@@ -271,7 +279,8 @@ void exposureRange(const Planes& reference, const PixelMask& mask, FlipResult& r
 
 }  // namespace
 
-FlipResult ldrFlip(const Image& image, const Image& reference, const PixelMask& mask, Job& job, float pixelsPerDegree) {
+FlipResult ldrFlip(const Image& image, const Image& reference, const PixelMask& mask, Job& job,
+                   float pixelsPerDegree) {
   expectFit(image, reference, mask, pixelsPerDegree);
   const auto clip = [](float x) { return x; };
   return summarise(differenceMap(toned(planesOf(image, mask), clip), toned(planesOf(reference, mask), clip),
@@ -279,7 +288,8 @@ FlipResult ldrFlip(const Image& image, const Image& reference, const PixelMask& 
                    image.width, image.height, mask);
 }
 
-FlipResult hdrFlip(const Image& image, const Image& reference, const PixelMask& mask, Job& job, float pixelsPerDegree) {
+FlipResult hdrFlip(const Image& image, const Image& reference, const PixelMask& mask, Job& job,
+                   float pixelsPerDegree) {
   expectFit(image, reference, mask, pixelsPerDegree);
   const Planes a = planesOf(image, mask), r = planesOf(reference, mask);
   FlipResult range;

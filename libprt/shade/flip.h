@@ -16,9 +16,9 @@ namespace prt {
 inline constexpr float kFlipPixelsPerDegree = 67.0206f;
 
 struct FlipResult {
-  double mean = 0;        ///< over the counted pixels
-  Image map;              ///< one channel, 0..1; 0 where the mask leaves out
-  int exposures = 1;      ///< HDR only: how many were tried
+  double mean = 0;                            ///< over the counted pixels
+  Image map;                                  ///< one channel, 0..1; 0 where the mask leaves out
+  int exposures = 1;                          ///< HDR only: how many were tried
   float firstExposure = 0, lastExposure = 0;  ///< HDR only: stops
 };
 

@@ -11,21 +11,29 @@
 namespace prt {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what, const std::string& fix) { throw ValueError(what, "image comparison", fix); }
-
-std::string sizeText(const Image& image) {
-  return std::to_string(image.width) + "x" + std::to_string(image.height) + "x" + std::to_string(image.channels);
+[[noreturn]] void refuse(const std::string& what, const std::string& fix) {
+  throw ValueError(what, "image comparison", fix);
 }
 
-int colours(const Image& image) { return image.channels >= 3 ? 3 : 1; }
+std::string sizeText(const Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height) + "x" +
+         std::to_string(image.channels);
+}
+
+int colours(const Image& image) {
+  return image.channels >= 3 ? 3 : 1;
+}
 
 void expectComparable(const Image& a, const Image& r, const PixelMask& mask) {
   if (a.width != r.width || a.height != r.height || colours(a) != colours(r))
     refuse("images differ in shape: " + sizeText(a) + " and " + sizeText(r), "compare images of one size");
-  if (!mask.empty() && mask.size() != a.pixels()) refuse("the mask has another size than the images", "make one entry per pixel");
+  if (!mask.empty() && mask.size() != a.pixels())
+    refuse("the mask has another size than the images", "make one entry per pixel");
 }
 
-bool counts(const PixelMask& mask, std::size_t pixel) { return mask.empty() || mask[pixel] != 0; }
+bool counts(const PixelMask& mask, std::size_t pixel) {
+  return mask.empty() || mask[pixel] != 0;
+}
 
 /// A value that is known to be finite.
 double finite(float v) {
@@ -46,7 +54,7 @@ void eachValue(const Image& a, const Image& r, const PixelMask& mask, const Visi
 /// The smallest value that is not below 95 % of all.
 double percentile95(std::vector<float> values) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(0.95 * double(values.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(0.95 * double(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -141,20 +149,29 @@ ImageErrors compareImages(const Image& image, const Image& reference, const Pixe
   return e;
 }
 
-double NoiseFreeError::relative() const { return relativeOf(meanSquare, signal); }
-double NoiseFreeError::relativeLow() const { return relativeOf(meanSquare - 1.96 * standardError, signal); }
-double NoiseFreeError::relativeHigh() const { return relativeOf(meanSquare + 1.96 * standardError, signal); }
+double NoiseFreeError::relative() const {
+  return relativeOf(meanSquare, signal);
+}
+double NoiseFreeError::relativeLow() const {
+  return relativeOf(meanSquare - 1.96 * standardError, signal);
+}
+double NoiseFreeError::relativeHigh() const {
+  return relativeOf(meanSquare + 1.96 * standardError, signal);
+}
 
 NoiseFreeError noiseFreeError(std::span<const float> a, std::span<const float> r1, std::span<const float> r2,
                               std::size_t blockSize) {
-  if (a.size() != r1.size() || a.size() != r2.size()) refuse("value counts differ", "compare arrays of one size");
+  if (a.size() != r1.size() || a.size() != r2.size())
+    refuse("value counts differ", "compare arrays of one size");
   if (blockSize == 0) refuse("blocks are empty", "use at least one value per block");
   std::vector<Block> blocks((a.size() + blockSize - 1) / blockSize);
-  for (std::size_t i = 0; i < a.size(); ++i) blocks[i / blockSize].add(finite(a[i]), finite(r1[i]), finite(r2[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    blocks[i / blockSize].add(finite(a[i]), finite(r1[i]), finite(r2[i]));
   return combine(blocks);
 }
 
-NoiseFreeError noiseFreeError(const Image& a, const Image& r1, const Image& r2, const PixelMask& mask, int blockPixels) {
+NoiseFreeError noiseFreeError(const Image& a, const Image& r1, const Image& r2, const PixelMask& mask,
+                              int blockPixels) {
   expectComparable(a, r1, mask);
   expectComparable(a, r2, mask);
   if (blockPixels < 1) refuse("blocks are empty", "use at least one pixel per block");
@@ -163,7 +180,8 @@ NoiseFreeError noiseFreeError(const Image& a, const Image& r1, const Image& r2, 
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       if (!counts(mask, std::size_t(y) * std::size_t(a.width) + std::size_t(x))) continue;
-      Block& block = blocks[std::size_t(y / blockPixels) * std::size_t(across) + std::size_t(x / blockPixels)];
+      Block& block =
+          blocks[std::size_t(y / blockPixels) * std::size_t(across) + std::size_t(x / blockPixels)];
       for (int c = 0; c < colours(a); ++c)
         block.add(finite(a.pixel(x, y)[c]), finite(r1.pixel(x, y)[c]), finite(r2.pixel(x, y)[c]));
     }

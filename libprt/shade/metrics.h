@@ -20,11 +20,11 @@ PixelMask coveredPixels(const Image& image, float least = 0.999f);
 PixelMask bothMasks(const PixelMask& a, const PixelMask& b);
 
 struct ImageErrors {
-  std::size_t pixels = 0;    ///< counted
-  double rmse = 0;           ///< sqrt(mean (a - r)^2)
-  double relativeRmse = 0;   ///< ||a - r|| / ||r||; 0 when both are black, infinite when only r is
-  double maximum = 0;        ///< largest |a - r|
-  double percentile95 = 0;   ///< of |a - r| / (r + 0.01 mean r), one value per pixel and channel
+  std::size_t pixels = 0;   ///< counted
+  double rmse = 0;          ///< sqrt(mean (a - r)^2)
+  double relativeRmse = 0;  ///< ||a - r|| / ||r||; 0 when both are black, infinite when only r is
+  double maximum = 0;       ///< largest |a - r|
+  double percentile95 = 0;  ///< of |a - r| / (r + 0.01 mean r), one value per pixel and channel
 };
 
 /// Throws ValueError when sizes or colour channels differ, the mask does not fit, or a counted value is
@@ -35,9 +35,9 @@ ImageErrors compareImages(const Image& image, const Image& reference, const Pixe
 /// (a - r1)(a - r2) has no noise term: its expectation is the true mean squared error of `a`. The
 /// interval is two-sided 95 %, from the spread between blocks.
 struct NoiseFreeError {
-  double meanSquare = 0;      ///< may be slightly negative when the error is far below the noise
-  double standardError = 0;   ///< of meanSquare
-  double signal = 0;          ///< mean of r1 r2: the references' mean square, free of noise too
+  double meanSquare = 0;     ///< may be slightly negative when the error is far below the noise
+  double standardError = 0;  ///< of meanSquare
+  double signal = 0;         ///< mean of r1 r2: the references' mean square, free of noise too
   std::size_t blocks = 0;
 
   /// sqrt(meanSquare / signal), negative mean squares as 0; and the ends of its interval.

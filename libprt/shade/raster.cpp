@@ -62,14 +62,15 @@ Span2 coveredSpan(const SetupTriangle& t, int tileX, int tileY, int extentX, int
   const auto [lowY, highY] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const int half = 1 << (bits - 1);
   const int round = (1 << bits) - 1;
-  return {std::max(0, ((lowX - half + round) >> bits) - tileX), std::max(0, ((lowY - half + round) >> bits) - tileY),
+  return {std::max(0, ((lowX - half + round) >> bits) - tileX),
+          std::max(0, ((lowY - half + round) >> bits) - tileY),
           std::min(extentX - 1, ((highX - half) >> bits) - tileX),
           std::min(extentY - 1, ((highY - half) >> bits) - tileY)};
 }
 
 /// The inner loop: eight samples of a row at once.
-void drawSpan(const Span2& span, const std::array<EdgeFunction, 3>& e, const DepthPlane& depth, std::uint32_t id,
-              SampleTile& out) {
+void drawSpan(const Span2& span, const std::array<EdgeFunction, 3>& e, const DepthPlane& depth,
+              std::uint32_t id, SampleTile& out) {
   for (int y = span.y0; y <= span.y1; ++y) {
     const int row = y - span.y0;
     std::int32_t a = e[0].value + row * e[0].stepY, b = e[1].value + row * e[1].stepY,
@@ -93,21 +94,24 @@ void drawSpan(const Span2& span, const std::array<EdgeFunction, 3>& e, const Dep
   }
 }
 
-void drawTriangle(const SetupTriangle& t, int tileX, int tileY, int extentX, int extentY, int bits, SampleTile& out) {
+void drawTriangle(const SetupTriangle& t, int tileX, int tileY, int extentX, int extentY, int bits,
+                  SampleTile& out) {
   Span2 span = coveredSpan(t, tileX, tileY, extentX, extentY, bits);
   if (span.x0 > span.x1 || span.y0 > span.y1) return;
   span.x0 &= ~(kLanes - 1);
   const std::int64_t half = std::int64_t(1) << (bits - 1);
   const std::int64_t px = (std::int64_t(tileX + span.x0) << bits) + half;
   const std::int64_t py = (std::int64_t(tileY + span.y0) << bits) + half;
-  drawSpan(span, {edgeFunction(t, 0, 1, px, py, bits), edgeFunction(t, 1, 2, px, py, bits),
-                  edgeFunction(t, 2, 0, px, py, bits)},
+  drawSpan(span,
+           {edgeFunction(t, 0, 1, px, py, bits), edgeFunction(t, 1, 2, px, py, bits),
+            edgeFunction(t, 2, 0, px, py, bits)},
            depthPlane(t, px, py, double(1 << bits)), t.triangle, out);
 }
 
 /// Where the ray through the eye along `d` meets a triangle (Moeller and Trumbore 1997), clamped to
 /// the triangle: snapping may put a sample a hair outside.
-Vec2 barycentricOf(const TriMesh& mesh, std::uint32_t triangle, const DVec3& eye, const DVec3& d, bool& back) {
+Vec2 barycentricOf(const TriMesh& mesh, std::uint32_t triangle, const DVec3& eye, const DVec3& d,
+                   bool& back) {
   const UVec3& t = mesh.triangles[triangle];
   const DVec3 p0(mesh.positions[t.x]);
   const DVec3 e1 = DVec3(mesh.positions[t.y]) - p0, e2 = DVec3(mesh.positions[t.z]) - p0;
@@ -156,19 +160,23 @@ struct Rasterizer::Impl {
 
 Rasterizer::Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job) {
   if (grid < 1 || grid > 16)
-    throw ValueError("sample grid " + std::to_string(grid) + " is out of range", "renderer", "use 1 to 16 a side");
+    throw ValueError("sample grid " + std::to_string(grid) + " is out of range", "renderer",
+                     "use 1 to 16 a side");
   if (width < 1 || height < 1 || std::max(width, height) > 65536 / grid)
     throw ValueError("cannot draw " + std::to_string(width) + "x" + std::to_string(height) + " pixels with " +
                          std::to_string(grid) + "x" + std::to_string(grid) + " samples each",
                      "renderer", "keep size times samples within 65536 a side");
   impl_ = std::make_unique<Impl>(mesh, camera, width, height, grid);
   impl_->projection = Projection(camera, width * grid, height * grid);
-  impl_->bins = raster::binTriangles(mesh, impl_->projection, impl_->tilePixels * grid, impl_->tilesX, impl_->tilesY, job);
+  impl_->bins = raster::binTriangles(mesh, impl_->projection, impl_->tilePixels * grid, impl_->tilesX,
+                                     impl_->tilesY, job);
 }
 
 Rasterizer::~Rasterizer() = default;
 
-std::size_t Rasterizer::tileCount() const { return std::size_t(impl_->tilesX) * impl_->tilesY; }
+std::size_t Rasterizer::tileCount() const {
+  return std::size_t(impl_->tilesX) * impl_->tilesY;
+}
 
 void Rasterizer::drawSamples(std::size_t tile, SampleTile& out) const {
   const Impl& r = *impl_;
@@ -228,12 +236,14 @@ void Rasterizer::drawFragments(std::size_t tile, SampleTile& samples, FragmentTi
   out.first.push_back(std::uint32_t(out.fragments.size()));
 }
 
-FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job) {
+FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid,
+                        Job& job) {
   const Rasterizer rasterizer(mesh, camera, width, height, grid, job);
   FragmentImage image{width, height, grid, std::vector<FragmentTile>(rasterizer.tileCount())};
   parallelFor(job, 0, image.tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
     thread_local SampleTile samples;
-    for (std::size_t tile = begin; tile < end; ++tile) rasterizer.drawFragments(tile, samples, image.tiles[tile]);
+    for (std::size_t tile = begin; tile < end; ++tile)
+      rasterizer.drawFragments(tile, samples, image.tiles[tile]);
   });
   return image;
 }

@@ -33,9 +33,9 @@ struct Fragment {
 
 /// Samples of a rectangle of pixels, row by row at grid times the pixel resolution.
 struct SampleTile {
-  int x = 0, y = 0;           ///< first pixel
-  int width = 0, height = 0;  ///< in pixels
-  int stride = 0;             ///< samples from one row to the next
+  int x = 0, y = 0;                     ///< first pixel
+  int width = 0, height = 0;            ///< in pixels
+  int stride = 0;                       ///< samples from one row to the next
   std::vector<std::uint32_t> triangle;  ///< kNoTriangle where nothing is seen
   std::vector<float> inverseDepth;      ///< 1 / distance along the optical axis; 0 where nothing is seen
 };

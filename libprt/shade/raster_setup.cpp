@@ -58,8 +58,8 @@ struct Limits {
 };
 
 /// Snaps a triangle; adds it to the chunk unless it has no area left.
-void addTriangle(const Homogeneous& a, const Homogeneous& b, const Homogeneous& c, std::uint32_t id, double unit,
-                 Chunk& chunk) {
+void addTriangle(const Homogeneous& a, const Homogeneous& b, const Homogeneous& c, std::uint32_t id,
+                 double unit, Chunk& chunk) {
   SetupTriangle t;
   const Homogeneous* corner[3] = {&a, &b, &c};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -68,15 +68,16 @@ void addTriangle(const Homogeneous& a, const Homogeneous& b, const Homogeneous& 
     t.y[i] = std::int32_t(std::lrint(corner[i]->y * inverse * unit));
     t.inverseW[i] = float(inverse);
   }
-  const std::int64_t area = std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) -
-                            std::int64_t(t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
+  const std::int64_t area =
+      std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - std::int64_t(t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
   if (area == 0) return;
   if (area < 0) std::swap(t.x[1], t.x[2]), std::swap(t.y[1], t.y[2]), std::swap(t.inverseW[1], t.inverseW[2]);
   t.triangle = id;
   chunk.triangles.push_back(t);
 }
 
-void clipAndAdd(const std::array<Homogeneous, 3>& p, std::uint32_t id, const Limits& limits, double unit, Chunk& chunk) {
+void clipAndAdd(const std::array<Homogeneous, 3>& p, std::uint32_t id, const Limits& limits, double unit,
+                Chunk& chunk) {
   Polygon polygon;
   for (const Homogeneous& v : p) polygon.add(v);
   for (const Plane& plane : limits.planes) polygon = clip(polygon, plane);
@@ -93,8 +94,10 @@ TileRange tilesOf(const SetupTriangle& t, int bits, int tileSamples, int tilesX,
   const auto [lowX, highX] = std::minmax({t.x[0], t.x[1], t.x[2]});
   const auto [lowY, highY] = std::minmax({t.y[0], t.y[1], t.y[2]});
   const int half = 1 << (bits - 1), round = (1 << bits) - 1;
-  const int x0 = std::max(0, (lowX - half + round) >> bits), x1 = std::min(tileSamples * tilesX - 1, (highX - half) >> bits);
-  const int y0 = std::max(0, (lowY - half + round) >> bits), y1 = std::min(tileSamples * tilesY - 1, (highY - half) >> bits);
+  const int x0 = std::max(0, (lowX - half + round) >> bits),
+            x1 = std::min(tileSamples * tilesX - 1, (highX - half) >> bits);
+  const int y0 = std::max(0, (lowY - half + round) >> bits),
+            y1 = std::min(tileSamples * tilesY - 1, (highY - half) >> bits);
   if (x0 > x1 || y0 > y1) return {0, 0, -1, -1};
   return {x0 / tileSamples, y0 / tileSamples, x1 / tileSamples, y1 / tileSamples};
 }
@@ -107,7 +110,8 @@ void sortIntoTiles(Chunk& chunk, int bits, int tileSamples, int tilesX, int tile
       for (int x = r.x0; x <= r.x1; ++x) visit(std::size_t(y) * std::size_t(tilesX) + std::size_t(x));
   };
   chunk.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-  for (const SetupTriangle& t : chunk.triangles) eachTile(t, [&](std::size_t tile) { ++chunk.first[tile + 1]; });
+  for (const SetupTriangle& t : chunk.triangles)
+    eachTile(t, [&](std::size_t tile) { ++chunk.first[tile + 1]; });
   for (std::size_t i = 1; i < chunk.first.size(); ++i) chunk.first[i] += chunk.first[i - 1];
   chunk.items.resize(chunk.first.back());
   std::vector<std::uint32_t> next(chunk.first.begin(), chunk.first.end() - 1);
@@ -134,7 +138,8 @@ Homogeneous Projection::operator()(const Vec3& p) const {
   return {dot(rowX, d), dot(rowY, d), dot(rowW, d)};
 }
 
-Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSamples, int tilesX, int tilesY, Job& job) {
+Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSamples, int tilesX, int tilesY,
+                  Job& job) {
   std::vector<Homogeneous> projected(mesh.vertexCount());
   parallelFor(job, 0, projected.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) projected[i] = projection(mesh.positions[i]);

@@ -52,6 +52,7 @@ struct Bins {
 };
 
 /// `tileSamples`: a tile's side in samples.
-Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSamples, int tilesX, int tilesY, Job& job);
+Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSamples, int tilesX, int tilesY,
+                  Job& job);
 
 }  // namespace prt::raster

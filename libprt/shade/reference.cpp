@@ -24,8 +24,8 @@ ReferenceImage::ReferenceImage(const PathTracer& tracer, const Camera& camera, i
       width_(width),
       height_(height) {
   if (width < 1 || height < 1 || width > 65536 || height > 65536)
-    throw ValueError("cannot draw " + std::to_string(width) + "x" + std::to_string(height) + " pixels", "path tracer",
-                     "use 1 to 65536 a side");
+    throw ValueError("cannot draw " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
+                     "path tracer", "use 1 to 65536 a side");
   sums_.resize(std::size_t(width) * std::size_t(height));
 }
 
@@ -41,7 +41,8 @@ void ReferenceImage::addPass(int count, Job& job) {
     const int x0 = int(tile % std::size_t(tilesX)) * kTile, y0 = int(tile / std::size_t(tilesX)) * kTile;
     const int x1 = std::min(x0 + kTile, width_), y1 = std::min(y0 + kTile, height_);
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) tracePixel(x, y, count, sums[std::size_t(y) * std::size_t(width_) + std::size_t(x)]);
+      for (int x = x0; x < x1; ++x)
+        tracePixel(x, y, count, sums[std::size_t(y) * std::size_t(width_) + std::size_t(x)]);
     job.advance(double(x1 - x0) * (y1 - y0) * count);
   });
   sums_ = std::move(sums);

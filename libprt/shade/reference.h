@@ -16,7 +16,8 @@ namespace prt {
 class ReferenceImage {
  public:
   /// Keeps a reference to `tracer`. Throws ValueError when the size is not 1..65536 a side.
-  ReferenceImage(const PathTracer& tracer, const Camera& camera, int width, int height, const PathOptions& options);
+  ReferenceImage(const PathTracer& tracer, const Camera& camera, int width, int height,
+                 const PathOptions& options);
 
   /// Adds samples to every pixel. Cancelled: whole passes (of up to 16 samples) made so far are kept.
   void add(int samplesPerPixel, Job& job);
@@ -31,7 +32,7 @@ class ReferenceImage {
 
  private:
   struct Sum {
-    DVec3 surface{0}, sky{0};             // light from the scene, and from behind it
+    DVec3 surface{0}, sky{0};  // light from the scene, and from behind it
     DVec3 surfaceSquares{0}, allSquares{0};
     double covered = 0;
   };

@@ -111,7 +111,8 @@ struct PixelResponse {
     const std::size_t n = std::size_t(shCount(bands));
     const Rgb* x[3];
     for (std::size_t i = 0; i < 3; ++i) x[i] = arriving.radiance.data() + n * needed.slot[s.sample[i]];
-    for (std::size_t k = 0; k < n; ++k) buffer[k] = s.weight.x * x[0][k] + s.weight.y * x[1][k] + s.weight.z * x[2][k];
+    for (std::size_t k = 0; k < n; ++k)
+      buffer[k] = s.weight.x * x[0][k] + s.weight.y * x[1][k] + s.weight.z * x[2][k];
     return {buffer.data(), n};
   }
 
@@ -156,7 +157,8 @@ Rgb backgroundOf(const LightRig& rig, const CameraRays& rays, int x, int y, int 
 }
 
 template <class Shader>
-Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera, const Shader& shader, Job& job) {
+Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera,
+                 const Shader& shader, Job& job) {
   Image image(view.width, view.height, 4);
   const CameraRays rays(camera, view.width, view.height);
   const float part = 1.0f / float(view.grid * view.grid);
@@ -174,7 +176,8 @@ Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Came
           alpha += weight;
         }
         if (input.background && alpha < 1) {
-          sum += (1 - alpha) * sound(backgroundOf(*input.background, rays, tile.x + x, tile.y + y, view.grid));
+          sum +=
+              (1 - alpha) * sound(backgroundOf(*input.background, rays, tile.x + x, tile.y + y, view.grid));
           alpha = 1;
         }
         float* to = image.pixel(tile.x + x, tile.y + y);
@@ -186,25 +189,31 @@ Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Came
 }
 
 void expectFit(const RenderInput& input) {
-  const auto refuse = [](const std::string& what) { throw ValueError(what, "renderer", "bake the scene again"); };
+  const auto refuse = [](const std::string& what) {
+    throw ValueError(what, "renderer", "bake the scene again");
+  };
   const std::size_t samples = input.samples.size();
-  if (samples < input.scene.mesh.vertexCount()) refuse("the sample set has fewer samples than the scene has vertices");
+  if (samples < input.scene.mesh.vertexCount())
+    refuse("the sample set has fewer samples than the scene has vertices");
   if (!input.irradiance.empty()) {
     if (input.irradiance.size() != samples) refuse("irradiance is not given at every sample");
     return;
   }
   if (input.transfer.form != TransferForm::None && input.transfer.samples != samples)
-    refuse("transfer was baked for " + std::to_string(input.transfer.samples) + " samples, the scene has " + std::to_string(samples));
+    refuse("transfer was baked for " + std::to_string(input.transfer.samples) + " samples, the scene has " +
+           std::to_string(samples));
   if (input.transfer.bands > kMaxResponseBands && input.transfer.form != TransferForm::Diffuse)
     refuse("transfer has more than " + std::to_string(kMaxResponseBands) + " bands");
 }
 
-PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera, bool glossy) {
+PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera,
+                            bool glossy) {
   PixelResponse shader{input, needed, camera.eye, glossy, input.transfer.bands, {}, {}};
   shader.arriving = surfaceLight(input.transfer, input.light, input.samples, needed.samples);
   shader.glosses.resize(input.scene.materials.size());
   for (std::size_t i = 0; glossy && i < shader.glosses.size(); ++i)
-    if (input.scene.materials[i].glossy()) shader.glosses[i].emplace(input.scene.materials[i].exponent, shader.bands);
+    if (input.scene.materials[i].glossy())
+      shader.glosses[i].emplace(input.scene.materials[i].exponent, shader.bands);
   return shader;
 }
 
@@ -217,7 +226,8 @@ ShadeMethod resolveMethod(const RenderInput& input) {
                      "bake with transfer.kind=visibility or matrix, or use the diffuse method");
   if (input.method != ShadeMethod::Auto) return input.method;
   const auto& materials = input.scene.materials;
-  const bool glossy = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
+  const bool glossy =
+      std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
   return glossy && canGloss ? ShadeMethod::Glossy : ShadeMethod::Diffuse;
 }
 
@@ -229,12 +239,14 @@ Image shade(const RenderInput& input, const FragmentImage& view, const Camera& c
   if (!input.irradiance.empty() || input.transfer.form == TransferForm::Diffuse) {
     VertexIrradiance shader{input, needed, {}};
     if (input.irradiance.empty())
-      shader.irradiance = irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);
+      shader.irradiance =
+          irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);
     else
       for (const std::uint32_t sample : needed.samples) shader.irradiance.push_back(input.irradiance[sample]);
     return shadeTiles(input, view, camera, shader, job);
   }
-  return shadeTiles(input, view, camera, pixelResponse(input, needed, camera, method == ShadeMethod::Glossy), job);
+  return shadeTiles(input, view, camera, pixelResponse(input, needed, camera, method == ShadeMethod::Glossy),
+                    job);
 }
 
 Image render(const RenderInput& input, const Camera& camera, int width, int height, int grid, Job& job) {

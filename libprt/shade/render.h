@@ -6,7 +6,8 @@
 //            and met with the pixel's own normal; what its few bands miss of the exact irradiance at the
 //            vertices, which these forms hold too, is interpolated and added.
 //   Glossy   transferred radiance (object frame) interpolated over the triangle, dotted with the
-//            response of the BRDF towards the viewer at the pixel (Kautz 2002; libprt/material/glossy_response.h).
+//            response of the BRDF towards the viewer at the pixel (Kautz 2002;
+//            libprt/material/glossy_response.h).
 //
 // Surfaces seen from behind are black unless their material is two-sided. Radiance below zero (ringing
 // of truncated harmonics) becomes 0. No pixel is ever NaN. The result does not depend on threads.
@@ -34,9 +35,9 @@ enum class ShadeMethod {
 /// What is seen. Everything referred to must outlive the call.
 struct RenderInput {
   const Scene& scene;
-  const SampleSet& samples;    ///< samplesAtVertices(scene)
-  const Transfer& transfer;    ///< over `samples`
-  const ShRgb& light;          ///< bands that the transfer lacks are left out
+  const SampleSet& samples;  ///< samplesAtVertices(scene)
+  const Transfer& transfer;  ///< over `samples`
+  const ShRgb& light;        ///< bands that the transfer lacks are left out
   ShadeMethod method = ShadeMethod::Auto;
   /// Irradiance at each sample, [S], to be shown in place of transfer and light (Diffuse only): for
   /// light that was computed in another way. Empty = not given.

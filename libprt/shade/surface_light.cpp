@@ -32,7 +32,8 @@ SurfaceLight surfaceLight(const Transfer& transfer, const ShRgb& light, const Sa
       break;
     case TransferForm::Visibility:
     case TransferForm::Matrix:
-      out.radiance = which ? transferredRadiance(transfer, light, *which) : transferredRadiance(transfer, light);
+      out.radiance =
+          which ? transferredRadiance(transfer, light, *which) : transferredRadiance(transfer, light);
       if (transfer.diffuse.bytes.empty()) break;
       out.beyond = irradianceAt();
       const std::size_t n = std::size_t(shCount(out.bands));

@@ -15,7 +15,9 @@ float displayed(float radiance, float gain, ToneCurve curve) {
 
 }  // namespace
 
-float filmicCurve(float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
+float filmicCurve(float x) {
+  return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
+}
 
 Rgb toDisplay(const Rgb& radiance, const ToneSettings& tone) {
   const float gain = std::exp2(tone.exposure);

@@ -18,7 +18,9 @@ float powerHeuristic(float own, float other) {
   return a > 0 ? a / (a + b) : 0;
 }
 
-bool black(const Rgb& c) { return !(c.x > 0 || c.y > 0 || c.z > 0); }
+bool black(const Rgb& c) {
+  return !(c.x > 0 || c.y > 0 || c.z > 0);
+}
 
 /// A direction in the upper half of the local frame: what lies below the horizon is lifted onto it.
 Vec3 lifted(Vec3 local) {
@@ -37,10 +39,10 @@ struct Response {
 
 /// A point where light is gathered: a surface, or a receiver of irradiance.
 struct PathTracer::Vertex {
-  Vec3 origin{0};           // where rays start
-  Vec3 geometricNormal{0};  // on the side that is seen
-  Frame frame;              // about the shading normal
-  Vec3 out{0, 0, 1};        // local, towards the viewer
+  Vec3 origin{0};                      // where rays start
+  Vec3 geometricNormal{0};             // on the side that is seen
+  Frame frame;                         // about the shading normal
+  Vec3 out{0, 0, 1};                   // local, towards the viewer
   const Material* material = nullptr;  // null: nothing is reflected from here
 
   Response respond(const Vec3& direction) const {
@@ -94,7 +96,8 @@ Rgb PathTracer::nextEvent(const Vertex& v, const Vec2& u) const {
   for (const DirectionalLight& sun : lights_.directionals()) {
     const Vec3 direction = normalize(sun.direction);
     const Response r = v.respond(direction);
-    if (!black(r.value * sun.irradiance) && !rays_.occluded({v.origin, 0, direction})) sum += r.value * sun.irradiance;
+    if (!black(r.value * sun.irradiance) && !rays_.occluded({v.origin, 0, direction}))
+      sum += r.value * sun.irradiance;
   }
   return sum;
 }
@@ -141,8 +144,8 @@ Rgb PathTracer::irradiance(const SampleSet& samples, std::size_t index, const Pa
 }
 
 SampleIrradiance irradianceAtSamples(const PathTracer& tracer, const SampleSet& samples,
-                                     std::span<const std::uint32_t> indices, int paths, const PathOptions& options,
-                                     Job& job) {
+                                     std::span<const std::uint32_t> indices, int paths,
+                                     const PathOptions& options, Job& job) {
   const std::size_t count = indices.empty() ? samples.size() : indices.size();
   SampleIrradiance result{std::vector<Rgb>(count), std::vector<Rgb>(count)};
   job.begin("path tracing at samples", double(count) * paths, "paths");

@@ -48,9 +48,11 @@ class PathTracer {
   /// One path along `ray`, with numbers from `stream`.
   PathSample trace(const Ray& ray, const PathOptions& options, SobolStream& stream) const;
 
-  /// One estimate of the irradiance at a sample point: light that arrives in front of both its normals' planes,
-  /// cosine about the shading normal included; starts at the sample's origin exactly as the bake does.
-  Rgb irradiance(const SampleSet& samples, std::size_t index, const PathOptions& options, SobolStream& stream) const;
+  /// One estimate of the irradiance at a sample point: light that arrives in front of both its normals'
+  /// planes, cosine about the shading normal included; starts at the sample's origin exactly as the bake
+  /// does.
+  Rgb irradiance(const SampleSet& samples, std::size_t index, const PathOptions& options,
+                 SobolStream& stream) const;
 
   const Scene& scene() const { return scene_; }
   const LightSampler& lights() const { return lights_; }
@@ -77,7 +79,7 @@ struct SampleIrradiance {
 
 /// Means over `paths` paths at each point. `indices` = which points (all when empty; results in its order).
 SampleIrradiance irradianceAtSamples(const PathTracer& tracer, const SampleSet& samples,
-                                     std::span<const std::uint32_t> indices, int paths, const PathOptions& options,
-                                     Job& job);
+                                     std::span<const std::uint32_t> indices, int paths,
+                                     const PathOptions& options, Job& job);
 
 }  // namespace prt

@@ -14,7 +14,9 @@
 
 namespace prt::test {
 
-bool fullRun() { return std::getenv("PRT_FULL") != nullptr; }
+bool fullRun() {
+  return std::getenv("PRT_FULL") != nullptr;
+}
 
 Model loadModel(const std::string& file) {
   Job job;
@@ -77,8 +79,8 @@ std::vector<float> flatten(const std::vector<Rgb>& colours) {
 }
 
 void report(const std::string& what, const NoiseFreeError& e) {
-  std::printf("[ accuracy ] %-60s %.3f %%  [%.3f, %.3f]\n", what.c_str(), 100 * e.relative(), 100 * e.relativeLow(),
-              100 * e.relativeHigh());
+  std::printf("[ accuracy ] %-60s %.3f %%  [%.3f, %.3f]\n", what.c_str(), 100 * e.relative(),
+              100 * e.relativeLow(), 100 * e.relativeHigh());
 }
 
 }  // namespace prt::test

@@ -1,5 +1,6 @@
-// Pictures: what is left when the values at the vertices are right is interpolation. Its size is measured with
-// the same renderer fed with path-traced values (the interpolation floor); baked pictures must stay close.
+// Pictures: what is left when the values at the vertices are right is interpolation. Its size is measured
+// with the same renderer fed with path-traced values (the interpolation floor); baked pictures must stay
+// close.
 
 #include "libprt/mesh/generate.h"
 #include "libprt/shade/reference.h"
@@ -34,7 +35,8 @@ struct References {
   Image first, second;
   PixelMask inside;  // covered whole
 };
-References trace(const PathTracer& tracer, const Camera& camera, int size, int samples, int bounces, Job& job) {
+References trace(const PathTracer& tracer, const Camera& camera, int size, int samples, int bounces,
+                 Job& job) {
   Image images[2];
   for (std::uint64_t i : {0, 1}) {
     PathOptions options;
@@ -78,7 +80,8 @@ TEST_P(InterpolatedPictures, StayWithinTheInterpolationFloor) {
       std::vector<Rgb> atVertices(model.samples->size(), Rgb(0));
       for (std::size_t i = 0; i < visible.size(); ++i) atVertices[visible[i]] = traced[i];
 
-      const References truth = trace(tracer, camera, size, (fullRun() ? 2 : 1) * GetParam().samples, bounces, job);
+      const References truth =
+          trace(tracer, camera, size, (fullRun() ? 2 : 1) * GetParam().samples, bounces, job);
       RenderInput input{*model.scene, *model.samples, transfer, light.coefficients};
       const Image baked = shade(input, view, camera, job);
       input.irradiance = atVertices;
@@ -95,7 +98,8 @@ TEST_P(InterpolatedPictures, StayWithinTheInterpolationFloor) {
   }
 }
 
-/// On a convex body without bounces nothing is left out: 5 bands of light meet 5 bands of the response, per pixel.
+/// On a convex body without bounces nothing is left out: 5 bands of light meet 5 bands of the response, per
+/// pixel.
 TEST(Pictures, GlossyConvexBodiesAreThePathTracers) {
   PRT_NEEDS_SHARED_DATA();
   Job job;
@@ -103,7 +107,8 @@ TEST(Pictures, GlossyConvexBodiesAreThePathTracers) {
   for (const float exponent : {3.0f, 40.0f, 1000.0f}) {
     Material material;
     material.model = MaterialModel::Phong;
-    material.albedo = {0.2f, 0.1f, 0.05f}, material.specular = Rgb(0.6f, 0.7f, 0.8f), material.exponent = exponent;
+    material.albedo = {0.2f, 0.1f, 0.05f}, material.specular = Rgb(0.6f, 0.7f, 0.8f),
+    material.exponent = exponent;
     const SceneObject object{"ball", std::make_shared<TriMesh>(makeIcosphere({1, 5})), Mat4(1), material};
     const Scene scene = flattenScene({&object, 1});
     const PathTracer tracer(scene, light.rig, job);
@@ -122,7 +127,8 @@ TEST(Pictures, GlossyConvexBodiesAreThePathTracers) {
 INSTANTIATE_TEST_SUITE_P(Meshes, InterpolatedPictures,
                          testing::Values(Case{"bunny_3k.off", 48, true}, Case{"spot.obj", 64, true},
                                          Case{"blobby.off", 192, true}, Case{"armadillo.off", 64, false},
-                                         Case{"happy_buddha.obj", 64, false}, Case{"stanford-bunny.obj", 128, false}),
+                                         Case{"happy_buddha.obj", 64, false},
+                                         Case{"stanford-bunny.obj", 128, false}),
                          [](const auto& one) { return test::caseName(one.param.mesh); });
 
 }  // namespace

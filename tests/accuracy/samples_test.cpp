@@ -29,7 +29,8 @@ NoiseFreeError measure(const Model& model, const Light& light, const std::vector
   for (std::uint64_t seed : {0, 1}) {
     PathOptions options;
     options.bounces = bounces, options.seed = 100 + seed;
-    references[seed] = test::flatten(irradianceAtSamples(tracer, *model.samples, indices, paths, options, job).mean);
+    references[seed] =
+        test::flatten(irradianceAtSamples(tracer, *model.samples, indices, paths, options, job).mean);
   }
   return noiseFreeError(test::flatten(baked), references[0], references[1], 12);
 }
@@ -46,7 +47,8 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
   if (!GetParam().always && !fullRun()) GTEST_SKIP() << "part of the full run: set PRT_FULL=1";
   Job job;
   const Model model = test::loadModel(GetParam().mesh);
-  const std::vector<std::uint32_t> indices = test::pick(model.scene->mesh.vertexCount(), fullRun() ? 400 : 300, 7);
+  const std::vector<std::uint32_t> indices =
+      test::pick(model.scene->mesh.vertexCount(), fullRun() ? 400 : 300, 7);
   const auto some = std::make_shared<SampleSet>(test::subset(*model.samples, indices));
 
   for (const int bounces : {0, 3}) {
@@ -69,7 +71,8 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
       const Light light = test::loadLight(probe);
       const std::vector<Rgb> baked = irradiance(transfer, light.coefficients, some->shadingNormal);
       const NoiseFreeError e = measure(model, light, baked, indices, bounces, fullRun() ? 4096 : 2048);
-      test::report(model.name + ", " + light.name + ", " + std::to_string(bounces) + " bounces, at samples", e);
+      test::report(model.name + ", " + light.name + ", " + std::to_string(bounces) + " bounces, at samples",
+                   e);
       EXPECT_LT(e.relative(), kBound) << model.name << " " << probe << " " << bounces;
     }
   }
@@ -78,7 +81,8 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
 INSTANTIATE_TEST_SUITE_P(Meshes, AtSamples,
                          testing::Values(Case{"bunny_3k.off", 1024, true}, Case{"spot.obj", 1024, true},
                                          Case{"blobby.off", 1024, true}, Case{"armadillo.off", 256, true},
-                                         Case{"happy_buddha.obj", 256, true}, Case{"stanford-bunny.obj", 1024, false},
+                                         Case{"happy_buddha.obj", 256, true},
+                                         Case{"stanford-bunny.obj", 1024, false},
                                          Case{"lucy.ply", 1024, false}),
                          [](const auto& one) { return test::caseName(one.param.mesh); });
 

@@ -8,7 +8,8 @@ namespace prt {
 namespace {
 
 Vec2 project(const Camera& camera, const Vec3& p, int width, int height) {
-  const Vec4 clip = camera.projection(float(width) / float(height), 0.01f, 100.0f) * (camera.view() * Vec4(p, 1));
+  const Vec4 clip =
+      camera.projection(float(width) / float(height), 0.01f, 100.0f) * (camera.view() * Vec4(p, 1));
   return {(clip.x / clip.w * 0.5f + 0.5f) * float(width), (0.5f - clip.y / clip.w * 0.5f) * float(height)};
 }
 
@@ -38,7 +39,8 @@ TEST(Camera, MatricesAndRaysAgree) {
 TEST(Camera, DegenerateFieldsStillGiveAFrame) {
   Camera camera;
   for (const Vec3 up : {Vec3(0), Vec3(0, 0, 2), Vec3(std::numeric_limits<float>::quiet_NaN()), Vec3(0, 1, 0)})
-    for (const Vec3 eye : {Vec3(0), Vec3(0, 0, 3), Vec3(0, 5, 0), Vec3(std::numeric_limits<float>::infinity(), 0, 0)}) {
+    for (const Vec3 eye :
+         {Vec3(0), Vec3(0, 0, 3), Vec3(0, 5, 0), Vec3(std::numeric_limits<float>::infinity(), 0, 0)}) {
       camera.up = up, camera.eye = eye;
       const Frame f = camera.axes();
       EXPECT_NEAR(length(f.tangent), 1, 1e-5);

@@ -1,5 +1,5 @@
-#include "libprt/core/error.h"
 #include "libprt/shade/flip.h"
+#include "libprt/core/error.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ Pair pattern(float top) {
       const float u = (float(x) + 0.5f) / 96, v = (float(y) + 0.5f) / 64;
       const float base = 0.1f + 0.5f * u, stripe = (x / 6 + y / 9) % 2 ? 0.25f : 0.0f;
       const float spot = top * std::exp(-60 * ((u - 0.7f) * (u - 0.7f) + (v - 0.4f) * (v - 0.4f)));
-      const Rgb r(base + stripe * 0.8f + spot, 0.4f * base + stripe + spot * 0.7f, 0.2f + 0.6f * v + spot * 0.3f);
+      const Rgb r(base + stripe * 0.8f + spot, 0.4f * base + stripe + spot * 0.7f,
+                  0.2f + 0.6f * v + spot * 0.3f);
       const float d = 0.15f * std::sin(9 * u + 5 * v);
       const Rgb t(r.x * (1 + d), r.y * (1 - 0.5f * d) + (x > 48 && y > 32 ? 0.1f : 0), r.z * (1 + 0.7f * d));
       for (int c = 0; c < 3; ++c) p.reference.pixel(x, y)[c] = r[c], p.image.pixel(x, y)[c] = t[c];
@@ -110,7 +111,8 @@ TEST(Flip, MaskedPixelsDoNotCount) {
 TEST(Flip, SurvivesBadPixelsAndRefusesBadSizes) {
   Job job;
   Pair p = pattern(0);
-  p.image.data[5] = std::numeric_limits<float>::quiet_NaN(), p.image.data[900] = std::numeric_limits<float>::infinity();
+  p.image.data[5] = std::numeric_limits<float>::quiet_NaN(),
+  p.image.data[900] = std::numeric_limits<float>::infinity();
   p.reference.data[77] = -3;
   EXPECT_TRUE(std::isfinite(hdrFlip(p.image, p.reference, {}, job).mean));
   EXPECT_THROW(ldrFlip(p.image, Image(3, 3, 3), {}, job), ValueError);

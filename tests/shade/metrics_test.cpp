@@ -1,5 +1,5 @@
-#include "libprt/core/error.h"
 #include "libprt/shade/metrics.h"
+#include "libprt/core/error.h"
 #include "libprt/shade/tonemap.h"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,10 @@ TEST(Metrics, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(compareImages(Image(2, 2, 3), Image(2, 3, 3)), ValueError);
   EXPECT_THROW(compareImages(Image(2, 2, 3), Image(2, 2, 1)), ValueError);
   EXPECT_THROW(compareImages(Image(2, 2, 3), Image(2, 2, 3), PixelMask(3, 1)), ValueError);
-  EXPECT_THROW(noiseFreeError(std::vector<float>(3), std::vector<float>(3), std::vector<float>(2), 1), ValueError);
-  EXPECT_THROW(noiseFreeError(std::vector<float>(3), std::vector<float>(3), std::vector<float>(3), 5), ValueError);
+  EXPECT_THROW(noiseFreeError(std::vector<float>(3), std::vector<float>(3), std::vector<float>(2), 1),
+               ValueError);
+  EXPECT_THROW(noiseFreeError(std::vector<float>(3), std::vector<float>(3), std::vector<float>(3), 5),
+               ValueError);
 }
 
 /// Images of a known signal: `a` is off by `error` relative RMSE, the references by noise only.

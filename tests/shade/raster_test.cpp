@@ -1,6 +1,6 @@
+#include "libprt/shade/raster.h"
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
-#include "libprt/shade/raster.h"
 #include "tests/shade/test_meshes.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,8 @@ struct RayHit {
 };
 RayHit meet(const TriMesh& mesh, std::size_t i, const DVec3& eye, const DVec3& d) {
   const UVec3& t = mesh.triangles[i];
-  const DVec3 p0(mesh.positions[t.x]), e1 = DVec3(mesh.positions[t.y]) - p0, e2 = DVec3(mesh.positions[t.z]) - p0;
+  const DVec3 p0(mesh.positions[t.x]), e1 = DVec3(mesh.positions[t.y]) - p0,
+                                       e2 = DVec3(mesh.positions[t.z]) - p0;
   const DVec3 n = cross(e1, e2);
   const double distance = dot(p0 - eye, n) / dot(d, n);
   const DVec3 q = eye + distance * d - p0;
@@ -50,7 +51,8 @@ RayHit meet(const TriMesh& mesh, std::size_t i, const DVec3& eye, const DVec3& d
 }
 
 /// Compares with brute force wherever no edge is within `margin` (barycentric) of the sample.
-void expectSameAsRays(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, double margin) {
+void expectSameAsRays(const TriMesh& mesh, const Camera& camera, int width, int height, int grid,
+                      double margin) {
   const Samples drawn = drawAll(mesh, camera, width, height, grid);
   const CameraRays rays(camera, width, height);
   int compared = 0, wrong = 0;
@@ -256,7 +258,8 @@ TEST(Raster, DegenerateTrianglesAndEmptyViewsDrawNothing) {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 9}, {1, 0, 9}, {0, 1, 9}};
   mesh.triangles = {{0, 1, 2}, {1, 1, 1}, {3, 4, 5}};  // a line, a point, one behind the eye
   Job job;
-  for (const FragmentTile& tile : rasterize(mesh, Camera{}, 20, 20, 2, job).tiles) EXPECT_TRUE(tile.fragments.empty());
+  for (const FragmentTile& tile : rasterize(mesh, Camera{}, 20, 20, 2, job).tiles)
+    EXPECT_TRUE(tile.fragments.empty());
 }
 
 TEST(Raster, RefusesSizesItCannotHold) {

@@ -53,7 +53,8 @@ TEST(Reference, WhiteSphereUnderWhiteSkyIsWhite) {
     }
   EXPECT_NEAR(light / covered, 1, 2e-3);
   const double focal = 10 / std::tan(0.5 * farCamera().verticalFov);
-  EXPECT_NEAR(covered / (kPi * focal * focal / 35), 1, 0.02);  // silhouette of the unit sphere from distance 6
+  EXPECT_NEAR(covered / (kPi * focal * focal / 35), 1,
+              0.02);  // silhouette of the unit sphere from distance 6
 }
 
 TEST(Reference, BackgroundShowsTheLightBehind) {

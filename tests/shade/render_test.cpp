@@ -34,7 +34,8 @@ ShRgb constantLight(float radiance) {
 ShRgb variedLight() {
   ShRgb light = constantLight(1);
   for (int k = 1; k < kFunctions; ++k)
-    light.c[std::size_t(k)] = Rgb(0.25f * std::sin(float(k)), 0.2f * std::cos(2.0f * float(k)), 0.15f * std::sin(3.0f * float(k)));
+    light.c[std::size_t(k)] =
+        Rgb(0.25f * std::sin(float(k)), 0.2f * std::cos(2.0f * float(k)), 0.15f * std::sin(3.0f * float(k)));
   return light;
 }
 
@@ -52,7 +53,8 @@ Transfer noTransfer(std::size_t samples) {
   return t;
 }
 
-/// Everything visible: the visibility function 1, the identity, and the unshadowed vector are one and the same.
+/// Everything visible: the visibility function 1, the identity, and the unshadowed vector are one and the
+/// same.
 Transfer openVisibility(std::size_t samples) {
   std::vector<float> v(samples * 81, 0.0f);
   for (std::size_t s = 0; s < samples; ++s) v[s * 81] = float(std::sqrt(4 * kPi));
@@ -92,8 +94,8 @@ struct World {
       : scene(sceneOf(std::move(mesh), material)), samples(samplesAtVertices(scene)) {
     camera.eye = {1.5f, 2, 3};
   }
-  Image draw(const Transfer& transfer, const ShRgb& light, ShadeMethod method = ShadeMethod::Auto, int grid = 2,
-             const LightRig* background = nullptr) const {
+  Image draw(const Transfer& transfer, const ShRgb& light, ShadeMethod method = ShadeMethod::Auto,
+             int grid = 2, const LightRig* background = nullptr) const {
     Job job;
     return render({scene, samples, transfer, light, method, {}, background}, camera, 48, 40, grid, job);
   }
@@ -101,14 +103,15 @@ struct World {
 
 double largestDifference(const Image& a, const Image& b) {
   double most = 0;
-  for (std::size_t i = 0; i < a.data.size(); ++i) most = std::max(most, std::abs(double(a.data[i]) - b.data[i]));
+  for (std::size_t i = 0; i < a.data.size(); ++i)
+    most = std::max(most, std::abs(double(a.data[i]) - b.data[i]));
   return most;
 }
 
 TEST(Render, WhitePlaneUnderWhiteSkyIsExactlyOne) {
   const World w(grid({-9, 0, 9}, {18, 0, 0}, {0, 0, -18}, 4, 4), lambert(Rgb(1)));
-  const Transfer forms[] = {noTransfer(25), openVisibility(25), identityMatrices(25, 1), identityMatrices(25, 3),
-                            openDiffuse(w.samples)};
+  const Transfer forms[] = {noTransfer(25), openVisibility(25), identityMatrices(25, 1),
+                            identityMatrices(25, 3), openDiffuse(w.samples)};
   for (const Transfer& t : forms) {
     const Image image = w.draw(t, constantLight(1));
     for (std::size_t i = 0; i < image.data.size(); ++i) ASSERT_NEAR(image.data[i], 1, 2e-6) << int(t.form);
@@ -141,8 +144,8 @@ TEST(Render, PixelsAreIrradianceTimesAlbedo) {
       if (!hit.valid() || image.pixel(x, y)[3] == 0) continue;
       const UVec3& t = w.scene.mesh.triangles[hit.triangle];
       const Vec2 b = hit.barycentric;
-      const DVec3 n = normalize(DVec3((1 - b.x - b.y) * w.scene.mesh.normals[t.x] + b.x * w.scene.mesh.normals[t.y] +
-                                      b.y * w.scene.mesh.normals[t.z]));
+      const DVec3 n = normalize(DVec3((1 - b.x - b.y) * w.scene.mesh.normals[t.x] +
+                                      b.x * w.scene.mesh.normals[t.y] + b.y * w.scene.mesh.normals[t.z]));
       std::vector<double> basis(kFunctions);
       shEvaluate(kBands, n, basis);
       const double a[] = {kPi, 2 * kPi / 3, kPi / 4, 0, -kPi / 24};
@@ -151,7 +154,8 @@ TEST(Render, PixelsAreIrradianceTimesAlbedo) {
         for (int m = -l; m <= l; ++m)
           e += a[l] * basis[std::size_t(shIndex(l, m))] * DVec3(variedLight().c[std::size_t(shIndex(l, m))]);
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(image.pixel(x, y)[c], std::max(0.0, w.scene.materials[0].albedo[c] * e[c] / kPi), 2e-3) << x << " " << y;
+        EXPECT_NEAR(image.pixel(x, y)[c], std::max(0.0, w.scene.materials[0].albedo[c] * e[c] / kPi), 2e-3)
+            << x << " " << y;
       ++compared;
     }
   EXPECT_GT(compared, 300);
@@ -234,7 +238,8 @@ TEST(Render, IrradianceThatFewBandsMissIsAdded) {
   EXPECT_NEAR(matte.pixel(24, 20)[0], 0.625, 1e-5);
   // The diffuse part of a glossy material as well.
   World glossy(grid({-9, 0, 9}, {18, 0, 0}, {0, 0, -18}, 4, 4), phong(Rgb(0.5f), Rgb(0.4f), 20));
-  const Image with = glossy.draw(t, constantLight(1)), without = glossy.draw(openVisibility(25), constantLight(1));
+  const Image with = glossy.draw(t, constantLight(1)),
+              without = glossy.draw(openVisibility(25), constantLight(1));
   EXPECT_NEAR(with.pixel(24, 20)[0] - without.pixel(24, 20)[0], 0.125, 1e-5);
 }
 

@@ -18,7 +18,8 @@ inline TriMesh blob(int rings, int segments, float radius, float bump = 0) {
   };
   add(0, 0);
   for (int r = 1; r < rings; ++r)
-    for (int s = 0; s < segments; ++s) add(kPiF * float(r) / float(rings), 2 * kPiF * float(s) / float(segments));
+    for (int s = 0; s < segments; ++s)
+      add(kPiF * float(r) / float(rings), 2 * kPiF * float(s) / float(segments));
   add(kPiF, 0);
   const auto vertex = [&](int r, int s) {
     if (r == 0) return 0u;

@@ -33,7 +33,8 @@ TEST(Tonemap, CurvesRiseFromBlackToWhite) {
 }
 
 TEST(Tonemap, BadValuesShowBlackOrWhite) {
-  const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
   for (const ToneCurve curve : {ToneCurve::Linear, ToneCurve::Filmic})
     EXPECT_EQ(toDisplay(Rgb(-1, nan, infinity), {0, curve}), Rgb(0, 0, 1));
 }

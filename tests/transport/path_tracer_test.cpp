@@ -59,8 +59,10 @@ struct Estimate {
 };
 
 /// The estimate must be sharp, and hold the truth: within the standard error (well-spread paths err by
-/// less than half of it) and `bias` of a tessellated scene whose closed form is for a smooth one; both relative.
-void expectEstimate(const Estimate& e, double truth, double sharpness, double bias, const std::string& what = {}) {
+/// less than half of it) and `bias` of a tessellated scene whose closed form is for a smooth one; both
+/// relative.
+void expectEstimate(const Estimate& e, double truth, double sharpness, double bias,
+                    const std::string& what = {}) {
   EXPECT_LT(e.error, sharpness * truth) << what;
   EXPECT_NEAR(e.mean, truth, e.error + bias * truth) << what;
 }
@@ -74,13 +76,14 @@ std::vector<Estimate> measure(const Scene& scene, const LightRig& rig, const Sam
   options.bounces = bounces;
   const SampleIrradiance e = irradianceAtSamples(tracer, samples, indices, paths, options, job);
   std::vector<Estimate> m;
-  for (std::size_t i = 0; i < e.mean.size(); ++i) m.push_back({e.mean[i].x / kPi, e.standardError[i].x / kPi});
+  for (std::size_t i = 0; i < e.mean.size(); ++i)
+    m.push_back({e.mean[i].x / kPi, e.standardError[i].x / kPi});
   return m;
 }
 
 /// Red radiance along one ray.
-Estimate radianceAlong(const Scene& scene, const LightRig& rig, const Vec3& eye, const Vec3& towards, int paths,
-                       int bounces, bool diffuseBounces = false) {
+Estimate radianceAlong(const Scene& scene, const LightRig& rig, const Vec3& eye, const Vec3& towards,
+                       int paths, int bounces, bool diffuseBounces = false) {
   Job job;
   const PathTracer tracer(scene, rig, job);
   PathOptions options;
@@ -119,18 +122,21 @@ TEST(PathTracer, DirectionalLightFollowsTheCosineAndIsShadowed) {
   Job job;
   const Scene open = sceneOf(mesh);
   const PathTracer lit(open, rig, job);
-  const SampleIrradiance e = irradianceAtSamples(lit, samplesAtVertices(open), std::vector<std::uint32_t>{4}, 1, {}, job);
+  const SampleIrradiance e =
+      irradianceAtSamples(lit, samplesAtVertices(open), std::vector<std::uint32_t>{4}, 1, {}, job);
   EXPECT_NEAR(e.mean[0].x, 2 * std::sqrt(0.5), 1e-5);
   EXPECT_NEAR(e.mean[0].z, 0.5 * std::sqrt(0.5), 1e-5);
 
   append(mesh, grid({0.5f, 0, 1}, {0, 0, -2}, {0, 2, 0}, 1, 1));  // a wall between point and light
   const Scene walled = sceneOf(mesh);
   const PathTracer shaded(walled, rig, job);
-  EXPECT_EQ(irradianceAtSamples(shaded, samplesAtVertices(walled), std::vector<std::uint32_t>{4}, 1, {}, job).mean[0], Rgb(0));
+  EXPECT_EQ(irradianceAtSamples(shaded, samplesAtVertices(walled), std::vector<std::uint32_t>{4}, 1, {}, job)
+                .mean[0],
+            Rgb(0));
 }
 
-/// Every inner point of a spherical bowl whose missing cap is an area fraction f has sky-visible cosine fraction
-/// f: bounce k adds f (albedo (1-f))^k. Half bowl, white: 1/2, 3/4, 7/8, 15/16.
+/// Every inner point of a spherical bowl whose missing cap is an area fraction f has sky-visible cosine
+/// fraction f: bounce k adds f (albedo (1-f))^k. Half bowl, white: 1/2, 3/4, 7/8, 15/16.
 TEST(PathTracer, BowlFillsByHalves) {
   const Scene bowl = sceneOf(sphere(96, 192, 1, Vec3(0), 0, true), lambert(Rgb(1)));
   const SampleSet samples = samplesAtVertices(bowl);
@@ -153,7 +159,8 @@ TEST(PathTracer, BowlBouncesUnevenLightEvenly) {
   const double flux = kPi * kPi * std::pow(std::sin(0.3), 2) * normalize(Vec3(0.4f, 1, 0.2f)).y;
   const double expected = 0.8 * 0.5 * flux / (2 * kPi) / kPi;
   for (std::size_t i = 0; i < inside.size(); ++i)
-    expectEstimate({bounced[i].mean - direct[i].mean, bounced[i].error + direct[i].error}, expected, 0.012, 1e-3);
+    expectEstimate({bounced[i].mean - direct[i].mean, bounced[i].error + direct[i].error}, expected, 0.012,
+                   1e-3);
 }
 
 /// Infinite dihedral of opening a under a white sky: cosine fraction f = (1 - cos a)/2 on both walls and
@@ -212,7 +219,8 @@ double discReflected(const Material& m, const Vec3& out, const Vec3& axis, doubl
     for (int t = 0; t < turns; ++t) {
       const double theta = (r + 0.5) / rings * halfAngle, phi = 2 * kPi * (t + 0.5) / turns;
       const double s = std::sin(theta);
-      const Vec3 in = frame.toWorld({float(s * std::cos(phi)), float(s * std::sin(phi)), float(std::cos(theta))});
+      const Vec3 in =
+          frame.toWorld({float(s * std::cos(phi)), float(s * std::sin(phi)), float(std::cos(theta))});
       if (in.z > 0) sum += evalBrdf(m, in, out).x * in.z * s;
     }
   return sum * (halfAngle / rings) * (2 * kPi / turns);
@@ -221,7 +229,8 @@ double discReflected(const Material& m, const Vec3& out, const Vec3& axis, doubl
 TEST(PathTracer, BothSamplingTechniquesAreNeededAndAgree) {
   // Wide lobe and small light, narrow lobe and large light: each is hopeless for one technique alone.
   const Vec3 eye(-1.2f, 1, 0.3f);
-  for (const auto& [exponent, angle] : {std::pair(5.0f, 0.02), std::pair(2000.0f, 0.9), std::pair(100.0f, 0.2)}) {
+  for (const auto& [exponent, angle] :
+       {std::pair(5.0f, 0.02), std::pair(2000.0f, 0.9), std::pair(100.0f, 0.2)}) {
     const Material material = phong(Rgb(0.1f), Rgb(0.8f), exponent);
     const Scene plane = sceneOf(grid({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, 1, 1), material);
     const Vec3 mirror = normalize(Vec3(1.2f, 1, -0.3f) + Vec3(0.05f, 0, 0.03f));
@@ -320,7 +329,8 @@ TEST(PathTracer, StandardErrorBoundsTheSpreadBetweenSeeds) {
   for (int s = 0; s < seeds; ++s) {
     PathOptions options;
     options.seed = std::uint64_t(s);
-    const SampleIrradiance e = irradianceAtSamples(tracer, samples, std::vector<std::uint32_t>{100}, 64, options, job);
+    const SampleIrradiance e =
+        irradianceAtSamples(tracer, samples, std::vector<std::uint32_t>{100}, 64, options, job);
     const DVec3 v(e.mean[0]);
     sum += v, squares += v * v, claimed += DVec3(e.standardError[0]);
   }
