@@ -59,6 +59,8 @@ class DenseIndex {
 };
 
 /// The bits of a float, both zeros the same.
-inline std::uint32_t keyBits(float value) { return std::bit_cast<std::uint32_t>(value + 0.0f); }
+inline std::uint32_t keyBits(float value) {
+  return std::bit_cast<std::uint32_t>(value + 0.0f);
+}
 
 }  // namespace prt

@@ -14,7 +14,9 @@ namespace {
 /// No check for cavities beyond this many triangle visits; the rest counts as inside out.
 constexpr double kCavityWork = 2e8;
 
-bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool finite(const DVec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 class Diagnosis {
  public:
@@ -174,7 +176,8 @@ class Diagnosis {
     report_.edges = edges.size();
     std::vector<std::uint32_t> faceOfCorner(corners_.size());
     for (std::size_t f = 0; f < soup_.faceCount(); ++f)
-      std::fill(faceOfCorner.begin() + soup_.faceStart[f], faceOfCorner.begin() + soup_.faceStart[f + 1], std::uint32_t(f));
+      std::fill(faceOfCorner.begin() + soup_.faceStart[f], faceOfCorner.begin() + soup_.faceStart[f + 1],
+                std::uint32_t(f));
     UnionFind surfaces(soup_.faceCount());
     std::vector<bool> open(soup_.faceCount(), false);
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -234,7 +237,9 @@ class Diagnosis {
       if (skip_[f]) continue;
       const std::uint32_t root = surfaces.find(f);
       if (root == surface || !closed[root]) continue;
-      forEachTriangle(f, [&](const DVec3& a, const DVec3& b, const DVec3& c) { angle += signedSolidAngle(point, a, b, c); });
+      forEachTriangle(f, [&](const DVec3& a, const DVec3& b, const DVec3& c) {
+        angle += signedSolidAngle(point, a, b, c);
+      });
     }
     return angle > 2 * kPi;
   }
@@ -245,7 +250,8 @@ class Diagnosis {
       for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c)
         next[c] = c + 1 < soup_.faceStart[f + 1] ? c + 1 : soup_.faceStart[f];
     UnionFind fans = cornerFans(
-        edges, corners_, [&](std::uint32_t c) { return next[c]; }, [](const MeshEdge&) { return true; }, job_);
+        edges, corners_, [&](std::uint32_t c) { return next[c]; }, [](const MeshEdge&) { return true; },
+        job_);
     nonManifoldVertices(fans);
     boundaryLoops(edges, fans, next);
   }
@@ -286,8 +292,8 @@ class Diagnosis {
   CancelCheck check_;
   MeshReport report_;
   std::span<const std::uint32_t> representative_;  // [V] the vertex that stands for each
-  std::vector<std::uint32_t> corners_;         // [C] representatives
-  std::vector<bool> skip_;                     // [F] faces without part in topology
+  std::vector<std::uint32_t> corners_;             // [C] representatives
+  std::vector<bool> skip_;                         // [F] faces without part in topology
   std::size_t solidFaces_ = 0;
 };
 
@@ -297,7 +303,8 @@ bool MeshReport::clean() const {
   const Defect* defects[] = {&outOfRangeFaces,      &nonFiniteVertices, &degenerateFaces,     &duplicateFaces,
                              &unreferencedVertices, &nonManifoldEdges,  &nonManifoldVertices, &holes,
                              &flippedEdges,         &insideOut};
-  return faces > 0 && std::all_of(std::begin(defects), std::end(defects), [](const Defect* d) { return d->count == 0; });
+  return faces > 0 &&
+         std::all_of(std::begin(defects), std::end(defects), [](const Defect* d) { return d->count == 0; });
 }
 
 MeshReport diagnose(const PolygonSoup& soup, std::span<const std::uint32_t> representative, Job& job) {
@@ -316,7 +323,8 @@ MeshReport diagnose(const TriMesh& mesh, Job& job) {
     const Vec3& p = mesh.positions[v];
     const Vec3 n = mesh.normals.empty() ? Vec3(0) : mesh.normals[v];
     const auto known = seen.size();
-    if (seen.insert({keyBits(p.x), keyBits(p.y), keyBits(p.z), keyBits(n.x), keyBits(n.y), keyBits(n.z)}) < known)
+    if (seen.insert({keyBits(p.x), keyBits(p.y), keyBits(p.z), keyBits(n.x), keyBits(n.y), keyBits(n.z)}) <
+        known)
       report.duplicateVertices.add(v);
   }
   return report;

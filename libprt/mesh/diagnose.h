@@ -27,28 +27,28 @@ struct Defect {
 /// three different positions take no part in edges, components and Euler number. Edges, components and all
 /// that follows from them are those of positions: vertices at exactly one position count as one.
 struct MeshReport {
-  std::size_t vertices = 0;         ///< as in the file
-  std::size_t faces = 0;            ///< of any size
-  std::size_t triangles = 0;        ///< after cutting polygons up
-  std::size_t positions = 0;        ///< different positions that faces use
+  std::size_t vertices = 0;   ///< as in the file
+  std::size_t faces = 0;      ///< of any size
+  std::size_t triangles = 0;  ///< after cutting polygons up
+  std::size_t positions = 0;  ///< different positions that faces use
   std::size_t edges = 0;
-  std::size_t boundaryEdges = 0;    ///< with one face
-  std::size_t components = 0;       ///< pieces that share no position
-  std::size_t closedSurfaces = 0;   ///< sheets, joined by edges, without boundary
-  long euler = 0;                   ///< positions - edges + faces
-  DVec3 low{0}, high{0};            ///< bounds of the finite vertices that faces use
+  std::size_t boundaryEdges = 0;   ///< with one face
+  std::size_t components = 0;      ///< pieces that share no position
+  std::size_t closedSurfaces = 0;  ///< sheets, joined by edges, without boundary
+  long euler = 0;                  ///< positions - edges + faces
+  DVec3 low{0}, high{0};           ///< bounds of the finite vertices that faces use
 
-  Defect outOfRangeFaces;      ///< faces: an index beyond the vertices
-  Defect nonFiniteVertices;    ///< vertices: NaN or infinite
-  Defect degenerateFaces;      ///< faces: fewer than three positions, or no area
-  Defect duplicateFaces;       ///< faces: the same positions as an earlier face, in any order
-  Defect duplicateVertices;    ///< vertices: at the position of an earlier one
+  Defect outOfRangeFaces;       ///< faces: an index beyond the vertices
+  Defect nonFiniteVertices;     ///< vertices: NaN or infinite
+  Defect degenerateFaces;       ///< faces: fewer than three positions, or no area
+  Defect duplicateFaces;        ///< faces: the same positions as an earlier face, in any order
+  Defect duplicateVertices;     ///< vertices: at the position of an earlier one
   Defect unreferencedVertices;  ///< vertices of no face
-  Defect nonManifoldEdges;     ///< first vertex of each edge with more than two faces
-  Defect nonManifoldVertices;  ///< vertices whose faces form more than one fan
-  Defect holes;                ///< a vertex on each boundary loop
-  Defect flippedEdges;         ///< first vertex of each edge whose two faces are wound against each other
-  Defect insideOut;            ///< first face of each closed surface that faces inwards and is no cavity's wall
+  Defect nonManifoldEdges;      ///< first vertex of each edge with more than two faces
+  Defect nonManifoldVertices;   ///< vertices whose faces form more than one fan
+  Defect holes;                 ///< a vertex on each boundary loop
+  Defect flippedEdges;          ///< first vertex of each edge whose two faces are wound against each other
+  Defect insideOut;  ///< first face of each closed surface that faces inwards and is no cavity's wall
 
   /// Closed, manifold and wound outwards, without any other defect but duplicate vertices.
   bool clean() const;
@@ -63,7 +63,8 @@ MeshReport diagnose(const PolygonSoup& soup, std::span<const std::uint32_t> repr
 /// Of a mesh, vertices are duplicates only when their normals are the same too; else they make a crease.
 MeshReport diagnose(const TriMesh& mesh, Job& job);
 
-/// "36,000 vertices, 69,451 triangles, 1 component, 5 holes (223 boundary edges); 1,113 unreferenced vertices"
+/// "36,000 vertices, 69,451 triangles, 1 component, 5 holes (223 boundary edges); 1,113 unreferenced
+/// vertices"
 std::string toText(const MeshReport& report);
 nlohmann::json toJson(const MeshReport& report);
 

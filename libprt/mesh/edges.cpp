@@ -58,7 +58,8 @@ void MeshEdges::build(const std::vector<Side>& sides, Job& job) {
   for (std::uint32_t a = 0; a < vertices; ++a) {
     check();
     const auto begin = ends.begin() + first[a], end = ends.begin() + first[a + 1];
-    std::sort(begin, end, [](const End& x, const End& y) { return x.b != y.b ? x.b < y.b : x.corner < y.corner; });
+    std::sort(begin, end,
+              [](const End& x, const End& y) { return x.b != y.b ? x.b < y.b : x.corner < y.corner; });
     for (auto side = begin; side != end; ++side) {
       if (side == begin || side->b != (side - 1)->b) {
         starts_.push_back(std::uint32_t(sides_.size()));

@@ -41,7 +41,8 @@ class MeshEdges {
   std::size_t size() const { return keys_.size(); }
   MeshEdge operator[](std::size_t edge) const {
     const std::size_t first = starts_[edge], last = starts_[edge + 1];
-    return {std::uint32_t(keys_[edge] >> 32), std::uint32_t(keys_[edge]), {sides_.data() + first, last - first}};
+    return {
+        std::uint32_t(keys_[edge] >> 32), std::uint32_t(keys_[edge]), {sides_.data() + first, last - first}};
   }
   /// Index of the edge between two vertices; size() when there is none. O(log E).
   std::size_t find(std::uint32_t a, std::uint32_t b) const;
@@ -58,7 +59,9 @@ class MeshEdges {
 };
 
 /// The corner after a corner in its triangle.
-inline std::uint32_t nextInTriangle(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+inline std::uint32_t nextInTriangle(std::uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 /// Joins corners at one vertex whose faces meet in an edge for which `joins` is true: afterwards each set
 /// is a fan of faces around its vertex.

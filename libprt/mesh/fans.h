@@ -11,8 +11,9 @@
 namespace prt {
 
 struct FanSplit {
-  std::vector<UVec3> triangles;       ///< [F] the same triangles over the new vertices
-  std::vector<std::uint32_t> source;  ///< [W] old vertex of each new one; the first V are the old ones themselves
+  std::vector<UVec3> triangles;  ///< [F] the same triangles over the new vertices
+  std::vector<std::uint32_t>
+      source;  ///< [W] old vertex of each new one; the first V are the old ones themselves
 };
 
 /// Gives every fan of triangles around a vertex its own vertex. Fans are parted by edges of more or fewer

@@ -58,7 +58,9 @@ void bisect(TriMesh& mesh) {
 }
 
 /// Where grading puts the fraction t of a side, both in -1..1: the slope is 1 - grading in the middle.
-float graded(float t, float grading) { return t * (1 - grading + grading * t * t); }
+float graded(float t, float grading) {
+  return t * (1 - grading + grading * t * t);
+}
 
 }  // namespace
 
@@ -148,7 +150,9 @@ TriMesh makeTorus(const TorusOptions& options) {
 namespace {
 
 /// Subdivisions whose edges are about 1 / detail as long.
-int subdivided(int usual, float detail) { return std::clamp(usual + int(std::lround(std::log2(detail))), 0, 9); }
+int subdivided(int usual, float detail) {
+  return std::clamp(usual + int(std::lround(std::log2(detail))), 0, 9);
+}
 
 using Maker = TriMesh (*)(float detail, std::uint32_t seed);
 
@@ -158,7 +162,8 @@ const std::pair<const char*, Maker> kBuiltins[] = {
        const BirdOptions usual;
        return makeBird({.cellsAlong = scaled(usual.cellsAlong, d, 64, 400)});
      }},
-    {"box", [](float d, std::uint32_t) { return makeBox({.cells = scaled(BoxOptions{}.cells, d, 1, 1024)}); }},
+    {"box",
+     [](float d, std::uint32_t) { return makeBox({.cells = scaled(BoxOptions{}.cells, d, 1, 1024)}); }},
     {"ground", [](float d, std::uint32_t) { return makeGround(d); }},
     {"icosphere",
      [](float d, std::uint32_t) {
@@ -176,17 +181,20 @@ const std::pair<const char*, Maker> kBuiltins[] = {
     {"sphere",
      [](float d, std::uint32_t) {
        const SphereOptions usual;
-       return makeSphere({.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 2, 4096)});
+       return makeSphere(
+           {.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 2, 4096)});
      }},
     {"torus",
      [](float d, std::uint32_t) {
        const TorusOptions usual;
-       return makeTorus({.segments = scaled(usual.segments, d, 3, 4096), .sides = scaled(usual.sides, d, 3, 4096)});
+       return makeTorus(
+           {.segments = scaled(usual.segments, d, 3, 4096), .sides = scaled(usual.sides, d, 3, 4096)});
      }},
     {"vase",
      [](float d, std::uint32_t) {
        const VaseOptions usual;
-       return makeVase({.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 24, 4096)});
+       return makeVase(
+           {.segments = scaled(usual.segments, d, 3, 4096), .rings = scaled(usual.rings, d, 24, 4096)});
      }},
 };
 

@@ -51,10 +51,10 @@ TriMesh makeBox(const BoxOptions& options = {});
 
 /// Torus about the Y axis. UV: u around the axis, v around the tube.
 struct TorusOptions {
-  float majorRadius = 1;    ///< axis to the tube's centre
+  float majorRadius = 1;     ///< axis to the tube's centre
   float minorRadius = 0.4f;  ///< of the tube; at most majorRadius
-  int segments = 96;        ///< around the axis, 3..4096
-  int sides = 40;           ///< around the tube, 3..4096
+  int segments = 96;         ///< around the axis, 3..4096
+  int sides = 40;            ///< around the tube, 3..4096
 };
 TriMesh makeTorus(const TorusOptions& options = {});
 
@@ -62,30 +62,30 @@ TriMesh makeTorus(const TorusOptions& options = {});
 /// surface (outer and inner walls meet in the lip). UV: u around, v along the profile.
 struct VaseOptions {
   float height = 1;
-  float belly = 0.30f;      ///< largest radius of the belly, relative to the height, 0.1..1
-  float neck = 0.115f;      ///< smallest radius of the neck, relative to the height, 0.05..belly
+  float belly = 0.30f;       ///< largest radius of the belly, relative to the height, 0.1..1
+  float neck = 0.115f;       ///< smallest radius of the neck, relative to the height, 0.05..belly
   float thickness = 0.022f;  ///< of the wall, relative to the height, 0.005..0.04
-  int segments = 64;        ///< around the axis, 3..4096
-  int rings = 72;           ///< along the profile, from the foot over the lip to the inner floor, 24..4096
+  int segments = 64;         ///< around the axis, 3..4096
+  int rings = 72;            ///< along the profile, from the foot over the lip to the inner floor, 24..4096
 };
 TriMesh makeVase(const VaseOptions& options = {});
 
 /// A sitting bird: a smooth blend of ellipsoids and cones, polygonised and relaxed until its triangles
 /// are near equilateral. Faces +X, symmetric about z = 0 in shape (not in mesh), genus 0, no UVs.
 struct BirdOptions {
-  float length = 1;       ///< from beak to tail
-  int cellsAlong = 92;    ///< grid cells along the length, 64..400; vertices grow with its square
-  int relaxations = 24;   ///< sweeps of smoothing and edge flips, 0..200
+  float length = 1;      ///< from beak to tail
+  int cellsAlong = 92;   ///< grid cells along the length, 64..400; vertices grow with its square
+  int relaxations = 24;  ///< sweeps of smoothing and edge flips, 0..200
 };
 TriMesh makeBird(const BirdOptions& options = {});
 
 /// A boulder: an icosphere displaced by fractal noise, cut by a few weathered faces, with hollows deep
 /// enough to bounce light. No UVs.
 struct RockOptions {
-  float radius = 0.5f;     ///< before displacement
-  int subdivisions = 5;    ///< of the icosphere, 0..9
+  float radius = 0.5f;      ///< before displacement
+  int subdivisions = 5;     ///< of the icosphere, 0..9
   float roughness = 0.32f;  ///< depth of the relief relative to the radius, 0..0.6
-  int octaves = 6;         ///< of noise, 1..12
+  int octaves = 6;          ///< of noise, 1..12
   std::uint32_t seed = 1;
 };
 TriMesh makeRock(const RockOptions& options = {});

@@ -27,7 +27,9 @@ float blend(float a, float b, float radius) {
 }
 
 /// Intersection with a rounded edge.
-float cut(float a, float b, float radius) { return -blend(-a, -b, radius); }
+float cut(float a, float b, float radius) {
+  return -blend(-a, -b, radius);
+}
 
 Vec3 turnedAboutZ(const Vec3& p, float degreesUp) {
   const float angle = float(radians(degreesUp)), c = std::cos(angle), s = std::sin(angle);

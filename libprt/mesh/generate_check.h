@@ -17,6 +17,8 @@ void requireRange(const char* name, T value, T low, T high) {
 }
 
 /// A length: positive, finite, and of a size whose square is still a float.
-inline void requireLength(const char* name, float value) { requireRange(name, value, 1e-12f, 1e12f); }
+inline void requireLength(const char* name, float value) {
+  requireRange(name, value, 1e-12f, 1e12f);
+}
 
 }  // namespace prt

@@ -19,7 +19,8 @@ struct GridPoint {
 /// Appends (columns + 1) * (rows + 1) vertices and two triangles per cell; `point` takes (s, t) in -1..1,
 /// s to the right and t up as seen from the front. Both are exactly symmetric about 0, so that grids which
 /// meet along an edge from opposite ends share its positions. The diagonals alternate.
-void appendGrid(TriMesh& mesh, int columns, int rows, const std::function<GridPoint(float s, float t)>& point);
+void appendGrid(TriMesh& mesh, int columns, int rows,
+                const std::function<GridPoint(float s, float t)>& point);
 
 /// A point (radius, height) of a profile, the outward unit normal there in the same plane, and the
 /// texture coordinate v. A radius of exactly 0 makes a pole.

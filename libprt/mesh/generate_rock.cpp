@@ -21,7 +21,8 @@ float cutRadius(float radius, const Vec3& direction, const Vec3& face, float dep
 Vec3 rockPoint(const Vec3& direction, const RockOptions& o) {
   // Bend space first, so that crests wind instead of following the lattice.
   const Vec3 q = 1.3f * direction + Vec3(17.1f, 3.7f, 9.2f);
-  const Vec3 bend(fractalNoise(q, 3, o.seed + 101), fractalNoise(q, 3, o.seed + 211), fractalNoise(q, 3, o.seed + 307));
+  const Vec3 bend(fractalNoise(q, 3, o.seed + 101), fractalNoise(q, 3, o.seed + 211),
+                  fractalNoise(q, 3, o.seed + 307));
   const Vec3 bent = q + 0.35f * bend;
 
   float radius = 1 + o.roughness * 0.9f * fractalNoise(0.8f * bent, 2, o.seed + 401);

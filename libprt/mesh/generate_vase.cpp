@@ -16,7 +16,8 @@ std::vector<DVec2> spline(const std::vector<DVec2>& controls, int samplesPerSpan
     for (int k = 0; k < samplesPerSpan; ++k) {
       const double t = double(k) / samplesPerSpan;
       const DVec2 a = at(span - 1), b = at(span), c = at(span + 1), d = at(span + 2);
-      line.push_back(b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a))));
+      line.push_back(b +
+                     0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a))));
     }
   line.push_back(controls.back());
   return line;
@@ -73,7 +74,8 @@ std::vector<DVec2> wholeProfile(const VaseOptions& o) {
 /// `count` + 1 points at equal arc length along a polyline.
 std::vector<DVec2> resampled(const std::vector<DVec2>& line, int count) {
   std::vector<double> lengthTo{0.0};
-  for (std::size_t i = 1; i < line.size(); ++i) lengthTo.push_back(lengthTo.back() + distance(line[i], line[i - 1]));
+  for (std::size_t i = 1; i < line.size(); ++i)
+    lengthTo.push_back(lengthTo.back() + distance(line[i], line[i - 1]));
   std::vector<DVec2> points;
   std::size_t span = 1;
   for (int k = 0; k <= count; ++k) {
@@ -90,7 +92,8 @@ std::vector<DVec2> resampled(const std::vector<DVec2>& line, int count) {
 void smooth(std::vector<DVec2>& line, int sweeps) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     std::vector<DVec2> next = line;
-    for (std::size_t i = 1; i + 1 < line.size(); ++i) next[i] = 0.25 * (line[i - 1] + 2.0 * line[i] + line[i + 1]);
+    for (std::size_t i = 1; i + 1 < line.size(); ++i)
+      next[i] = 0.25 * (line[i - 1] + 2.0 * line[i] + line[i + 1]);
     next.front().y = 0.5 * (line[0].y + line[1].y);
     next.back().y = 0.5 * (line[line.size() - 1].y + line[line.size() - 2].y);
     line = std::move(next);

@@ -34,7 +34,8 @@ Chunks splitGlb(std::string_view bytes, const MeshSource& source) {
   };
   if (bytes.size() < 20) fail(source, "is too short for a GLB file");
   if (word(4) != 2) fail(source, "is GLB version " + std::to_string(word(4)) + ", only 2 is read");
-  if (word(8) > bytes.size()) fail(source, "is cut off: its header promises " + std::to_string(word(8)) + " bytes");
+  if (word(8) > bytes.size())
+    fail(source, "is cut off: its header promises " + std::to_string(word(8)) + " bytes");
   Chunks chunks;
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
     const std::size_t length = word(at);
@@ -52,9 +53,9 @@ Chunks splitGlb(std::string_view bytes, const MeshSource& source) {
 /// Parses JSON, leaving out what no mesh needs; refuses deep nesting, on which recursive code would run
 /// out of stack.
 Json prunedJson(std::string_view text, const MeshSource& source) {
-  static const std::set<std::string, std::less<>> wanted{"accessors", "asset",  "buffers", "bufferViews",
-                                                         "materials", "meshes", "nodes",   "scene",
-                                                         "scenes",    "extensionsRequired"};
+  static const std::set<std::string, std::less<>> wanted{
+      "accessors", "asset", "buffers", "bufferViews", "materials",
+      "meshes",    "nodes", "scene",   "scenes",      "extensionsRequired"};
   static const std::set<std::string, std::less<>> unwanted{"extras", "extensions", "min", "max", "targets"};
   const auto keep = [&](int depth, Json::parse_event_t event, Json& parsed) {
     if (depth > kDeepest) fail(source, "its JSON is nested too deeply");
@@ -70,9 +71,13 @@ Json prunedJson(std::string_view text, const MeshSource& source) {
 }
 
 void checkExtensions(const Json& root, const MeshSource& source) {
-  static const std::set<std::string> harmless{
-      "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit", "KHR_lights_punctual",
-      "KHR_materials_pbrSpecularGlossiness", "KHR_texture_basisu", "EXT_texture_webp"};
+  static const std::set<std::string> harmless{"KHR_mesh_quantization",
+                                              "KHR_texture_transform",
+                                              "KHR_materials_unlit",
+                                              "KHR_lights_punctual",
+                                              "KHR_materials_pbrSpecularGlossiness",
+                                              "KHR_texture_basisu",
+                                              "EXT_texture_webp"};
   const auto required = root.find("extensionsRequired");
   if (required == root.end() || !required->is_array()) return;
   for (const Json& name : *required) {
@@ -85,11 +90,15 @@ void checkExtensions(const Json& root, const MeshSource& source) {
 
 std::string percentDecoded(const std::string& text) {
   const auto digit = [](char c) {
-    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
   };
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool escape = text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0;
+    const bool escape =
+        text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0;
     out += escape ? char(digit(text[i + 1]) * 16 + digit(text[i + 2])) : text[i];
     if (escape) i += 2;
   }
@@ -97,8 +106,8 @@ std::string percentDecoded(const std::string& text) {
 }
 
 /// The bytes of one buffer: a data URI, a file in the model's folder, or the GLB's binary chunk.
-std::string_view bufferBytes(const Json& buffer, std::size_t index, const Chunks& chunks, const MeshSource& source,
-                             GltfContainer& container) {
+std::string_view bufferBytes(const Json& buffer, std::size_t index, const Chunks& chunks,
+                             const MeshSource& source, GltfContainer& container) {
   const std::string name = "buffer " + std::to_string(index);
   const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
   if (!buffer.is_object() || length == buffer.end() || !length->is_number_unsigned())
@@ -128,7 +137,8 @@ std::string_view bufferBytes(const Json& buffer, std::size_t index, const Chunks
   }
   const auto promised = length->get<std::uint64_t>();
   if (promised > bytes.size())
-    fail(source, name + " holds " + std::to_string(bytes.size()) + " of " + std::to_string(promised) + " bytes");
+    fail(source,
+         name + " holds " + std::to_string(bytes.size()) + " of " + std::to_string(promised) + " bytes");
   return bytes.substr(0, promised);
 }
 

@@ -13,8 +13,8 @@
 namespace prt {
 
 struct GltfContainer {
-  std::string json;                         ///< without buffers, images, animations, extras, extensions
-  std::vector<std::string_view> buffers;    ///< into the file's bytes or into `loaded`
+  std::string json;                       ///< without buffers, images, animations, extras, extensions
+  std::vector<std::string_view> buffers;  ///< into the file's bytes or into `loaded`
   std::vector<std::unique_ptr<std::string>> loaded;
 };
 

@@ -2,6 +2,7 @@
 // accessor is checked here, which tinygltf leaves to its callers.
 
 #include "libprt/core/error.h"
+#include "libprt/mesh/gltf_component.h"
 #include "libprt/mesh/gltf_container.h"
 #include "libprt/mesh/mesh_reader.h"
 
@@ -9,8 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <fstream>
 #include <limits>
 
@@ -33,10 +32,14 @@ using DMat3 = glm::dmat3;
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, const MeshSource& source, Job& job)
-      : source_(source), job_(job), container_(openGltf(bytes, source, job)), cornerLimit_((1u << 16) + 128 * bytes.size()) {
+      : source_(source),
+        job_(job),
+        container_(openGltf(bytes, source, job)),
+        cornerLimit_((1u << 16) + 128 * bytes.size()) {
     tinygltf::TinyGLTF parser;
     std::string error, warning;
-    const auto length = unsigned(std::min<std::size_t>(container_.json.size(), std::numeric_limits<unsigned>::max()));
+    const auto length =
+        unsigned(std::min<std::size_t>(container_.json.size(), std::numeric_limits<unsigned>::max()));
     if (!parser.LoadASCIIFromString(&model_, &error, &warning, container_.json.c_str(), length, ""))
       fail(error.empty() ? "is not a glTF 2.0 file" : error);
   }
@@ -83,13 +86,16 @@ class GltfReader {
     while (!stack.empty()) {
       const Visit visit = stack.back();
       stack.pop_back();
-      if (visit.node < 0 || std::size_t(visit.node) >= model_.nodes.size() || visited[std::size_t(visit.node)]) continue;
+      if (visit.node < 0 || std::size_t(visit.node) >= model_.nodes.size() ||
+          visited[std::size_t(visit.node)])
+        continue;
       visited[std::size_t(visit.node)] = true;
       const tinygltf::Node& node = model_.nodes[std::size_t(visit.node)];
       const DMat4 toScene = visit.toScene * localTransform(node);
       if (node.mesh >= 0 && std::size_t(node.mesh) < model_.meshes.size())
         readMesh(model_.meshes[std::size_t(node.mesh)], node.name, toScene);
-      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) stack.push_back({*child, toScene});
+      for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+        stack.push_back({*child, toScene});
     }
     if (model_.nodes.empty())
       for (const auto& mesh : model_.meshes) readMesh(mesh, mesh.name, DMat4(1));
@@ -138,7 +144,8 @@ class GltfReader {
 
   void readPrimitive(const tinygltf::Primitive& primitive, const DMat4& toScene) {
     const int mode = primitive.mode;
-    if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP && mode != TINYGLTF_MODE_TRIANGLE_FAN) {
+    if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+        mode != TINYGLTF_MODE_TRIANGLE_FAN) {
       leaveOut("primitives of points or lines were left out");
       return;
     }
@@ -191,7 +198,8 @@ class GltfReader {
     return count;
   }
 
-  std::uint32_t readNormals(const tinygltf::Primitive& primitive, std::size_t vertices, const DMat4& toScene) {
+  std::uint32_t readNormals(const tinygltf::Primitive& primitive, std::size_t vertices,
+                            const DMat4& toScene) {
     const auto found = primitive.attributes.find("NORMAL");
     if (found == primitive.attributes.end()) return kNoIndex;
     const std::vector<double> values = numbers(found->second, 3);
@@ -245,15 +253,18 @@ class GltfReader {
 
   /// All values of an accessor, `components` per element, sparse substitution and normalisation done.
   std::vector<double> numbers(int index, int components) {
-    if (index < 0 || std::size_t(index) >= model_.accessors.size()) fail("names an accessor that does not exist");
+    if (index < 0 || std::size_t(index) >= model_.accessors.size())
+      fail("names an accessor that does not exist");
     const tinygltf::Accessor& accessor = model_.accessors[std::size_t(index)];
     if (tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)) != components)
       fail("accessor " + std::to_string(index) + " has the wrong type");
     if (accessor.count > cornerLimit_) fail("accessor " + std::to_string(index) + " has an impossible count");
     std::vector<double> values(accessor.count * std::size_t(components), 0.0);
     if (accessor.bufferView >= 0) {
-      const Block block = elements(accessor.bufferView, accessor.byteOffset, accessor.count, accessor.componentType, components);
-      for (std::size_t i = 0; i < accessor.count; ++i) readElement(block, i, accessor, components, values.data() + i * components);
+      const Block block = elements(accessor.bufferView, accessor.byteOffset, accessor.count,
+                                   accessor.componentType, components);
+      for (std::size_t i = 0; i < accessor.count; ++i)
+        readElement(block, i, accessor, components, values.data() + i * components);
     } else if (!accessor.sparse.isSparse) {
       fail("accessor " + std::to_string(index) + " has no data");
     }
@@ -268,11 +279,13 @@ class GltfReader {
     const auto count = std::size_t(sparse.count);
     const Block places = elements(sparse.indices.bufferView, std::size_t(sparse.indices.byteOffset), count,
                                   sparse.indices.componentType, 1);
-    const Block replacements = elements(sparse.values.bufferView, std::size_t(sparse.values.byteOffset), count,
-                                        accessor.componentType, components);
+    const Block replacements = elements(sparse.values.bufferView, std::size_t(sparse.values.byteOffset),
+                                        count, accessor.componentType, components);
     for (std::size_t i = 0; i < count; ++i) {
-      const double place = component(places.bytes.data() + i * places.stride, sparse.indices.componentType);
-      if (!(place >= 0 && place < double(accessor.count))) fail("a sparse accessor replaces an element that does not exist");
+      const double place =
+          readComponent(places.bytes.data() + i * places.stride, sparse.indices.componentType, false);
+      if (!(place >= 0 && place < double(accessor.count)))
+        fail("a sparse accessor replaces an element that does not exist");
       readElement(replacements, i, accessor, components, values.data() + std::size_t(place) * components);
     }
   }
@@ -284,16 +297,17 @@ class GltfReader {
 
   /// The checked bytes of `count` elements in a buffer view.
   Block elements(int viewIndex, std::size_t offset, std::size_t count, int componentType, int components) {
-    if (viewIndex < 0 || std::size_t(viewIndex) >= model_.bufferViews.size()) fail("names a buffer view that does not exist");
+    if (viewIndex < 0 || std::size_t(viewIndex) >= model_.bufferViews.size())
+      fail("names a buffer view that does not exist");
     const tinygltf::BufferView& view = model_.bufferViews[std::size_t(viewIndex)];
-    if (view.buffer < 0 || std::size_t(view.buffer) >= container_.buffers.size()) fail("names a buffer that does not exist");
+    if (view.buffer < 0 || std::size_t(view.buffer) >= container_.buffers.size())
+      fail("names a buffer that does not exist");
     const std::string_view buffer = container_.buffers[std::size_t(view.buffer)];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
       fail("buffer view " + std::to_string(viewIndex) + " reaches beyond its buffer");
     const std::string_view bytes = buffer.substr(view.byteOffset, view.byteLength);
-    const int componentSize = tinygltf::GetComponentSizeInBytes(std::uint32_t(componentType));
-    if (componentSize <= 0) fail("an accessor has an unknown component type");
-    const std::size_t elementSize = std::size_t(componentSize) * std::size_t(components);
+    const std::size_t elementSize = componentSize(componentType) * std::size_t(components);
+    if (elementSize == 0) fail("an accessor has an unknown component type");
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : elementSize;
     if (count == 0) return {{}, stride};
     const bool fits = offset <= bytes.size() && elementSize <= bytes.size() - offset &&
@@ -302,43 +316,12 @@ class GltfReader {
     return {bytes.substr(offset), stride};
   }
 
-  static void readElement(const Block& block, std::size_t i, const tinygltf::Accessor& accessor, int components, double* out) {
+  static void readElement(const Block& block, std::size_t i, const tinygltf::Accessor& accessor,
+                          int components, double* out) {
     const char* p = block.bytes.data() + i * block.stride;
-    const int size = tinygltf::GetComponentSizeInBytes(std::uint32_t(accessor.componentType));
-    for (int k = 0; k < components; ++k) {
-      out[k] = component(p + k * size, accessor.componentType);
-      if (accessor.normalized) out[k] = normalised(out[k], accessor.componentType);
-    }
-  }
-
-  template <class T>
-  static double raw(const char* p) {
-    T value;
-    std::memcpy(&value, p, sizeof value);
-    return double(value);
-  }
-
-  static double component(const char* p, int type) {
-    switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return raw<std::int8_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return raw<std::uint8_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return raw<std::int16_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return raw<std::uint16_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_INT: return raw<std::int32_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return raw<std::uint32_t>(p);
-      case TINYGLTF_COMPONENT_TYPE_FLOAT: return raw<float>(p);
-      default: return raw<double>(p);
-    }
-  }
-
-  static double normalised(double value, int type) {
-    switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(value / 127, -1.0);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return value / 255;
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(value / 32767, -1.0);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return value / 65535;
-      default: return value;
-    }
+    for (int k = 0; k < components; ++k)
+      out[k] = readComponent(p + std::size_t(k) * componentSize(accessor.componentType),
+                             accessor.componentType, accessor.normalized);
   }
 
   void leaveOut(const char* what) {

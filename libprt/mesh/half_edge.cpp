@@ -72,9 +72,10 @@ HalfEdgeMesh::HalfEdgeMesh(const TriMesh& mesh, Job& job) : kernel_(std::make_un
     if (f % 4096 == 0) job.checkCancelled();
     const UVec3& t = kernel_->corners[f];
     if (t.x == t.y || t.y == t.z || t.z == t.x)  // which OpenMesh would end the process for
-      throw GeometryError("triangle " + std::to_string(f) + " has fewer than three different positions", "half-edges",
-                          "repair the mesh first");
-    kernel_->add_face(OpenMesh::VertexHandle(int(t.x)), OpenMesh::VertexHandle(int(t.y)), OpenMesh::VertexHandle(int(t.z)));
+      throw GeometryError("triangle " + std::to_string(f) + " has fewer than three different positions",
+                          "half-edges", "repair the mesh first");
+    kernel_->add_face(OpenMesh::VertexHandle(int(t.x)), OpenMesh::VertexHandle(int(t.y)),
+                      OpenMesh::VertexHandle(int(t.z)));
   }
 }
 
@@ -82,9 +83,15 @@ HalfEdgeMesh::~HalfEdgeMesh() = default;
 HalfEdgeMesh::HalfEdgeMesh(HalfEdgeMesh&&) noexcept = default;
 HalfEdgeMesh& HalfEdgeMesh::operator=(HalfEdgeMesh&&) noexcept = default;
 
-std::size_t HalfEdgeMesh::vertexCount() const { return kernel_->n_vertices(); }
-std::size_t HalfEdgeMesh::edgeCount() const { return kernel_->n_edges(); }
-std::size_t HalfEdgeMesh::triangleCount() const { return kernel_->n_faces(); }
+std::size_t HalfEdgeMesh::vertexCount() const {
+  return kernel_->n_vertices();
+}
+std::size_t HalfEdgeMesh::edgeCount() const {
+  return kernel_->n_edges();
+}
+std::size_t HalfEdgeMesh::triangleCount() const {
+  return kernel_->n_faces();
+}
 
 std::uint32_t HalfEdgeMesh::vertexOf(std::uint32_t triangle, int corner) const {
   return kernel_->corners[triangle][corner];
@@ -92,7 +99,8 @@ std::uint32_t HalfEdgeMesh::vertexOf(std::uint32_t triangle, int corner) const {
 
 std::vector<std::uint32_t> HalfEdgeMesh::oneRing(std::uint32_t vertex) const {
   std::vector<std::uint32_t> ring;
-  for (const auto h : kernel_->spokes(vertex)) ring.push_back(std::uint32_t(kernel_->to_vertex_handle(h).idx()));
+  for (const auto h : kernel_->spokes(vertex))
+    ring.push_back(std::uint32_t(kernel_->to_vertex_handle(h).idx()));
   return ring;
 }
 

@@ -13,7 +13,8 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 Vec3 gradient(const ScalarField& field, const Vec3& p, float step) {
   const Vec3 x(step, 0, 0), y(0, step, 0), z(0, 0, step);
-  return Vec3(field(p + x) - field(p - x), field(p + y) - field(p - y), field(p + z) - field(p - z)) / (2 * step);
+  return Vec3(field(p + x) - field(p - x), field(p + y) - field(p - y), field(p + z) - field(p - z)) /
+         (2 * step);
 }
 
 /// Newton steps along the gradient, each at most a cell long.

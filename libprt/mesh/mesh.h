@@ -10,10 +10,10 @@
 namespace prt {
 
 struct TriMesh {
-  std::vector<Vec3> positions;   ///< [V]
-  std::vector<Vec3> normals;     ///< [V] unit shading normals; a crease is two vertices at one position
-  std::vector<UVec3> triangles;  ///< [F] counter-clockwise seen from outside
-  std::vector<Vec2> uv;          ///< [V'] texture coordinates, v up; empty when the file had none
+  std::vector<Vec3> positions;     ///< [V]
+  std::vector<Vec3> normals;       ///< [V] unit shading normals; a crease is two vertices at one position
+  std::vector<UVec3> triangles;    ///< [F] counter-clockwise seen from outside
+  std::vector<Vec2> uv;            ///< [V'] texture coordinates, v up; empty when the file had none
   std::vector<UVec3> uvTriangles;  ///< [F] indices into uv; empty exactly when uv is
 
   std::size_t vertexCount() const { return positions.size(); }

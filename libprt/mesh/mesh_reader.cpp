@@ -17,8 +17,9 @@ struct Format {
   Parser parse;
 };
 
-constexpr Format kFormats[] = {{".obj", "OBJ", parseObj},   {".ply", "PLY", parsePly},    {".off", "OFF", parseOff},
-                               {".stl", "STL", parseStl},   {".gltf", "glTF", parseGltf}, {".glb", "glTF", parseGltf}};
+constexpr Format kFormats[] = {{".obj", "OBJ", parseObj},    {".ply", "PLY", parsePly},
+                               {".off", "OFF", parseOff},    {".stl", "STL", parseStl},
+                               {".gltf", "glTF", parseGltf}, {".glb", "glTF", parseGltf}};
 
 /// The format that a file's first bytes can belong to alone; empty when they do not tell.
 std::string formatByMagic(std::string_view bytes) {
@@ -26,7 +27,8 @@ std::string formatByMagic(std::string_view bytes) {
   if (bytes.starts_with("glTF")) return "glTF";
   const std::string start(bytes.substr(0, 256));
   const std::string_view first = TextScanner(start, {}, '#').word();
-  if (first == "OFF" || first == "COFF" || first == "NOFF" || first == "STOFF" || first == "CNOFF") return "OFF";
+  if (first == "OFF" || first == "COFF" || first == "NOFF" || first == "STOFF" || first == "CNOFF")
+    return "OFF";
   if (first.starts_with("{") && start.find('"') != std::string::npos) return "glTF";
   return {};
 }
@@ -48,7 +50,8 @@ PolygonSoup readMesh(const std::filesystem::path& path, Job& job) {
     known.append(known.empty() ? "" : " ").append(candidate.extension);
   }
   if (!format)
-    throw FileError(inQuotes(extension) + " is not the extension of a mesh format", path.string(), "known are " + known);
+    throw FileError(inQuotes(extension) + " is not the extension of a mesh format", path.string(),
+                    "known are " + known);
 
   job.begin("read", 0, "bytes");
   const std::vector<std::byte> contents = readFile(path, kLargestFile, &job);

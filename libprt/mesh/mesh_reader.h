@@ -23,8 +23,9 @@ std::vector<std::string> meshExtensions();
 
 /// Where the bytes given to a parser came from.
 struct MeshSource {
-  std::string name;               ///< for messages
-  std::filesystem::path folder;   ///< files that a model names are read from here or below; empty = from nowhere
+  std::string name;  ///< for messages
+  std::filesystem::path
+      folder;  ///< files that a model names are read from here or below; empty = from nowhere
 };
 
 // The parsers behind it, over bytes in memory. Each throws FileError.

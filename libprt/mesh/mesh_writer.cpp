@@ -50,7 +50,8 @@ class Out {
 };
 
 std::string oneLine(std::string name) {
-  std::replace_if(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
   return name;
 }
 
@@ -60,7 +61,9 @@ Vec3 encoded(const Rgb& linear) {
   return out;
 }
 
-std::uint8_t byteOf(float value) { return std::uint8_t(std::lround(255 * value)); }
+std::uint8_t byteOf(float value) {
+  return std::uint8_t(std::lround(255 * value));
+}
 
 std::string objText(const TriMesh& mesh, const MeshWriteOptions& options, Job& job) {
   Out out(job);
@@ -163,7 +166,8 @@ SeamSplit splitAtSeams(const TriMesh& mesh) {
   return split;
 }
 
-void writeMesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshWriteOptions& options, Job& job) {
+void writeMesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshWriteOptions& options,
+               Job& job) {
   if (!options.colors.empty() && options.colors.size() != mesh.vertexCount())
     throw ValueError("there are " + std::to_string(options.colors.size()) + " colours for " +
                          std::to_string(mesh.vertexCount()) + " vertices",

@@ -26,7 +26,8 @@ struct MeshWriteOptions {
 /// PLY and glTF have one texture coordinate per vertex: vertices on seams are doubled there. glTF's v runs
 /// downwards and is turned over. Throws ValueError for an unknown extension or colours of another length,
 /// FileError when the file cannot be written.
-void writeMesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshWriteOptions& options, Job& job);
+void writeMesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshWriteOptions& options,
+               Job& job);
 
 /// A mesh in which every vertex has one texture coordinate.
 struct SeamSplit {

@@ -13,14 +13,17 @@ std::uint32_t hashed(std::uint32_t x) {
 
 /// Dot product of an offset with the lattice point's gradient, one of the twelve edge directions of a cube.
 float corner(int x, int y, int z, std::uint32_t seed, const Vec3& offset) {
-  static constexpr float g[12][3] = {{1, 1, 0},  {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
-                                     {1, 0, -1}, {-1, 0, -1}, {0, 1, 1}, {0, -1, 1},  {0, 1, -1}, {0, -1, -1}};
+  static constexpr float g[12][3] = {{1, 1, 0}, {-1, 1, 0}, {1, -1, 0}, {-1, -1, 0},
+                                     {1, 0, 1}, {-1, 0, 1}, {1, 0, -1}, {-1, 0, -1},
+                                     {0, 1, 1}, {0, -1, 1}, {0, 1, -1}, {0, -1, -1}};
   const std::uint32_t h =
       hashed(std::uint32_t(x) + hashed(std::uint32_t(y) + hashed(std::uint32_t(z) + hashed(seed)))) % 12;
   return g[h][0] * offset.x + g[h][1] * offset.y + g[h][2] * offset.z;
 }
 
-float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+float fade(float t) {
+  return t * t * t * (t * (t * 6 - 15) + 10);
+}
 
 }  // namespace
 

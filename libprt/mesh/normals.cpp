@@ -12,7 +12,8 @@ struct CornerGeometry {
   double angle;  ///< at the corner
 };
 
-std::vector<CornerGeometry> cornerGeometry(std::span<const Vec3> positions, std::span<const UVec3> triangles, Job& job) {
+std::vector<CornerGeometry> cornerGeometry(std::span<const Vec3> positions, std::span<const UVec3> triangles,
+                                           Job& job) {
   CancelCheck check(job);
   std::vector<CornerGeometry> corners;
   corners.reserve(3 * triangles.size());
@@ -80,8 +81,8 @@ std::vector<bool> keepFromFile(const CornerNormalInput& in, const std::vector<Co
 }
 
 /// One group per vertex, or per fan between creases.
-std::vector<std::uint32_t> smoothGroups(const CornerNormalInput& in, const std::vector<CornerGeometry>& geometry,
-                                        Job& job) {
+std::vector<std::uint32_t> smoothGroups(const CornerNormalInput& in,
+                                        const std::vector<CornerGeometry>& geometry, Job& job) {
   std::vector<std::uint32_t> vertex;
   vertex.reserve(3 * in.triangles.size());
   for (const UVec3& t : in.triangles) vertex.insert(vertex.end(), {t.x, t.y, t.z});

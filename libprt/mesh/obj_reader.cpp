@@ -1,9 +1,9 @@
 // Wavefront OBJ through tinyobjloader's callbacks, behind the checks of obj_text.h.
 
 #include "libprt/core/error.h"
-#include "libprt/mesh/side_file.h"
 #include "libprt/mesh/mesh_reader.h"
 #include "libprt/mesh/obj_text.h"
+#include "libprt/mesh/side_file.h"
 #include "libprt/mesh/text_scanner.h"
 
 #include <istream>
@@ -87,7 +87,8 @@ struct SoupBuilder {
   /// OBJ counts from 1, and from the end with negative numbers; 0 names nothing.
   static std::uint32_t resolved(int index, std::size_t count) {
     if (index > 0) return std::uint32_t(index) - 1;
-    if (index < 0 && std::size_t(-std::int64_t(index)) <= count) return std::uint32_t(std::int64_t(count) + index);
+    if (index < 0 && std::size_t(-std::int64_t(index)) <= count)
+      return std::uint32_t(std::int64_t(count) + index);
     return kNoIndex;
   }
   void addFace(const tinyobj::index_t* corners, int count) {
@@ -119,14 +120,22 @@ struct SoupBuilder {
   }
 };
 
-SoupBuilder& builder(void* user) { return *static_cast<SoupBuilder*>(user); }
+SoupBuilder& builder(void* user) {
+  return *static_cast<SoupBuilder*>(user);
+}
 
 tinyobj::callback_t callbacks() {
   tinyobj::callback_t c;
-  c.vertex_cb = [](void* user, double x, double y, double z, double) { builder(user).soup.positions.push_back({x, y, z}); };
-  c.normal_cb = [](void* user, double x, double y, double z) { builder(user).soup.normals.push_back(Vec3(x, y, z)); };
+  c.vertex_cb = [](void* user, double x, double y, double z, double) {
+    builder(user).soup.positions.push_back({x, y, z});
+  };
+  c.normal_cb = [](void* user, double x, double y, double z) {
+    builder(user).soup.normals.push_back(Vec3(x, y, z));
+  };
   c.texcoord_cb = [](void* user, double u, double v, double) { builder(user).soup.uv.push_back(Vec2(u, v)); };
-  c.index_cb = [](void* user, tinyobj::index_t* corners, int count) { builder(user).addFace(corners, count); };
+  c.index_cb = [](void* user, tinyobj::index_t* corners, int count) {
+    builder(user).addFace(corners, count);
+  };
   c.usemtl_cb = [](void* user, const char* name, int id) { builder(user).useMaterial(name, id); };
   c.mtllib_cb = [](void* user, const tinyobj::material_t* materials, int count) {
     builder(user).library.assign(materials, materials + count);
@@ -160,7 +169,8 @@ PolygonSoup parseObj(std::string_view bytes, const MeshSource& source, Job& job)
   if (soup.materials.empty()) soup.faceMaterial.clear();
   if (soup.groups.empty()) soup.faceGroup.clear();
   if (checked.ignoredElements() > 0)
-    soup.notes.push_back(std::to_string(checked.ignoredElements()) + " points, lines or curves were left out");
+    soup.notes.push_back(std::to_string(checked.ignoredElements()) +
+                         " points, lines or curves were left out");
   return std::move(soup);
 }
 

@@ -69,8 +69,10 @@ std::string toUtf8(std::string_view bytes) {
   if (at(0) == 0xef && at(1) == 0xbb && at(2) == 0xbf) return std::string(bytes.substr(3));
   if (at(0) == 0xfe && at(1) == 0xff) return fromUtf16(bytes.substr(2), true);
   if (at(0) == 0xff && at(1) == 0xfe) return fromUtf16(bytes.substr(2), false);
-  if (bytes.size() >= 4 && at(0) == 0 && at(1) != 0 && at(2) == 0 && at(3) != 0) return fromUtf16(bytes, true);
-  if (bytes.size() >= 4 && at(0) != 0 && at(1) == 0 && at(2) != 0 && at(3) == 0) return fromUtf16(bytes, false);
+  if (bytes.size() >= 4 && at(0) == 0 && at(1) != 0 && at(2) == 0 && at(3) != 0)
+    return fromUtf16(bytes, true);
+  if (bytes.size() >= 4 && at(0) != 0 && at(1) == 0 && at(2) != 0 && at(3) == 0)
+    return fromUtf16(bytes, false);
   return std::string(bytes);
 }
 
@@ -113,7 +115,8 @@ std::string_view ObjText::logicalLine() {
     const std::string_view line = text_.substr(position_, end - position_);
     position_ = end;
     if (position_ < text_.size()) {
-      const bool pair = text_[position_] == '\r' && position_ + 1 < text_.size() && text_[position_ + 1] == '\n';
+      const bool pair =
+          text_[position_] == '\r' && position_ + 1 < text_.size() && text_[position_ + 1] == '\n';
       position_ += pair ? 2 : 1;
     }
     ++nextLine_;
@@ -140,7 +143,8 @@ void ObjText::checkedLine(std::string_view line) {
     face(line);
   } else if (keyword == "g" || keyword == "o" || keyword == "usemtl" || keyword == "mtllib") {
     block_.append(keyword).append(line.empty() ? " " : line).append("\n");
-  } else if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" || keyword == "surf") {
+  } else if (keyword == "p" || keyword == "l" || keyword == "curv" || keyword == "curv2" ||
+             keyword == "surf") {
     ++ignoredElements_;
   }
 }

@@ -38,7 +38,7 @@ class ObjText : public std::streambuf {
   std::string name_;
   Job& job_;
   std::size_t position_ = 0;
-  int line_ = 0;      // of the line being checked
+  int line_ = 0;  // of the line being checked
   int nextLine_ = 1;
   std::string joined_;  // a line put together from several
   std::string block_;

@@ -27,14 +27,16 @@ OffHeader readHeader(TextScanner& text) {
   header.uvs = take("ST");
   header.colors = take("C");
   header.normals = take("N");
-  if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF") text.fail("only three-dimensional OFF files are read");
+  if (rest == "4OFF" || rest == "nOFF" || rest == "4nOFF")
+    text.fail("only three-dimensional OFF files are read");
   if (rest != "OFF") text.fail("an OFF file begins with OFF, COFF, NOFF or the like");
 
   std::string_view first = text.wordOnLine();
   if (first == "BINARY") text.fail("binary OFF is not read");
   if (first.empty()) first = text.word();
   const auto vertices = parseInteger(first), faces = parseInteger(text.wordOnLine());
-  if (!vertices || !faces || *vertices < 0 || *faces < 0) text.fail("the counts of vertices and faces are missing");
+  if (!vertices || !faces || *vertices < 0 || *faces < 0)
+    text.fail("the counts of vertices and faces are missing");
   text.skipLine();  // the count of edges, which nobody fills in
   header.vertices = std::size_t(*vertices);
   header.faces = std::size_t(*faces);
@@ -69,7 +71,8 @@ void readVertex(TextScanner& text, const OffHeader& header, PolygonSoup& soup) {
 
 void readFace(TextScanner& text, PolygonSoup& soup) {
   const std::int64_t corners = text.integer();
-  if (corners < 0 || std::uint64_t(corners) > text.remaining()) text.fail("the number of corners is impossible");
+  if (corners < 0 || std::uint64_t(corners) > text.remaining())
+    text.fail("the number of corners is impossible");
   for (std::int64_t i = 0; i < corners; ++i) {
     const std::int64_t index = text.integer();
     const bool valid = index >= 0 && std::uint64_t(index) < soup.positions.size();

@@ -21,7 +21,10 @@ struct Surface {
 class Orienter {
  public:
   Orienter(const OrientationInput& input, Job& job)
-      : in_(input), job_(job), edges_(input.triangles, job), flip_(input.triangles.size(), false),
+      : in_(input),
+        job_(job),
+        edges_(input.triangles, job),
+        flip_(input.triangles.size(), false),
         surfaceOf_(input.triangles.size(), kNone) {
     edgeOfSide_.assign(3 * input.triangles.size(), kNone);
     for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -34,7 +37,8 @@ class Orienter {
     for (std::uint32_t f = 0; f < in_.triangles.size(); ++f) measure(f);
     findOpen();
     decide();
-    for (std::uint32_t f = 0; f < in_.triangles.size(); ++f) flip_[f] = flip_[f] != surfaces_[surfaceOf_[f]].flip;
+    for (std::uint32_t f = 0; f < in_.triangles.size(); ++f)
+      flip_[f] = flip_[f] != surfaces_[surfaceOf_[f]].flip;
     return std::move(flip_);
   }
 
@@ -104,7 +108,8 @@ class Orienter {
     double work = 0;
     for (std::uint32_t i = 0; i < surfaces_.size(); ++i) {
       Surface& s = surfaces_[i];
-      const double smallest = 1e-9 * std::pow(s.keptArea + s.flippedArea, 1.5);  // what encloses nothing has no outside
+      const double smallest =
+          1e-9 * std::pow(s.keptArea + s.flippedArea, 1.5);  // what encloses nothing has no outside
       const bool inward = s.closed && std::abs(s.volume) > smallest && (s.volume < 0) != s.flip;
       if (!inward) continue;
       work += double(in_.triangles.size());
@@ -137,6 +142,8 @@ class Orienter {
 
 }  // namespace
 
-std::vector<bool> trianglesToFlip(const OrientationInput& input, Job& job) { return Orienter(input, job).run(); }
+std::vector<bool> trianglesToFlip(const OrientationInput& input, Job& job) {
+  return Orienter(input, job).run();
+}
 
 }  // namespace prt

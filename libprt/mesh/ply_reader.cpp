@@ -22,10 +22,12 @@ std::size_t sizeOf(PlyType type) {
 
 PlyType typeFrom(std::string_view name, const TextScanner& text) {
   static constexpr std::pair<std::string_view, PlyType> names[] = {
-      {"char", PlyType::i8},   {"int8", PlyType::i8},    {"uchar", PlyType::u8},  {"uint8", PlyType::u8},
-      {"short", PlyType::i16}, {"int16", PlyType::i16},  {"ushort", PlyType::u16}, {"uint16", PlyType::u16},
-      {"int", PlyType::i32},   {"int32", PlyType::i32},  {"uint", PlyType::u32},  {"uint32", PlyType::u32},
-      {"float", PlyType::f32}, {"float32", PlyType::f32}, {"double", PlyType::f64}, {"float64", PlyType::f64}};
+      {"char", PlyType::i8},    {"int8", PlyType::i8},     {"uchar", PlyType::u8},
+      {"uint8", PlyType::u8},   {"short", PlyType::i16},   {"int16", PlyType::i16},
+      {"ushort", PlyType::u16}, {"uint16", PlyType::u16},  {"int", PlyType::i32},
+      {"int32", PlyType::i32},  {"uint", PlyType::u32},    {"uint32", PlyType::u32},
+      {"float", PlyType::f32},  {"float32", PlyType::f32}, {"double", PlyType::f64},
+      {"float64", PlyType::f64}};
   for (const auto& [known, type] : names)
     if (name == known) return type;
   text.fail("a property has a type that PLY does not know");
@@ -126,7 +128,9 @@ class Body {
   Body(std::string_view bytes, const Header& header, const std::string& name)
       : encoding_(header.encoding), name_(name), bytes_(bytes), lines_(header.lines), text_(bytes, name) {}
 
-  std::size_t remaining() const { return encoding_ == Encoding::ascii ? text_.remaining() : bytes_.size() - at_; }
+  std::size_t remaining() const {
+    return encoding_ == Encoding::ascii ? text_.remaining() : bytes_.size() - at_;
+  }
 
   double value(PlyType type) {
     if (encoding_ == Encoding::ascii) return asciiValue();
@@ -134,14 +138,22 @@ class Body {
     const char* p = bytes_.data() + at_;
     at_ += sizeOf(type);
     switch (type) {
-      case PlyType::i8: return raw<std::int8_t>(p);
-      case PlyType::u8: return raw<std::uint8_t>(p);
-      case PlyType::i16: return raw<std::int16_t>(p);
-      case PlyType::u16: return raw<std::uint16_t>(p);
-      case PlyType::i32: return raw<std::int32_t>(p);
-      case PlyType::u32: return raw<std::uint32_t>(p);
-      case PlyType::f32: return raw<float>(p);
-      default: return raw<double>(p);
+      case PlyType::i8:
+        return raw<std::int8_t>(p);
+      case PlyType::u8:
+        return raw<std::uint8_t>(p);
+      case PlyType::i16:
+        return raw<std::int16_t>(p);
+      case PlyType::u16:
+        return raw<std::uint16_t>(p);
+      case PlyType::i32:
+        return raw<std::int32_t>(p);
+      case PlyType::u32:
+        return raw<std::uint32_t>(p);
+      case PlyType::f32:
+        return raw<float>(p);
+      default:
+        return raw<double>(p);
     }
   }
 
@@ -199,7 +211,8 @@ void readVertices(const Element& element, Body& body, PolygonSoup& soup, Job& jo
   const int x = element.find({"x"}), y = element.find({"y"}), z = element.find({"z"});
   const int nx = element.find({"nx", "normal_x"}), ny = element.find({"ny", "normal_y"}),
             nz = element.find({"nz", "normal_z"});
-  const int u = element.find({"s", "u", "texture_u", "texture_s"}), v = element.find({"t", "v", "texture_v", "texture_t"});
+  const int u = element.find({"s", "u", "texture_u", "texture_s"}),
+            v = element.find({"t", "v", "texture_v", "texture_t"});
   const auto isScalar = [&](int property) { return property >= 0 && !element.properties[property].isList; };
   if (!isScalar(x) || !isScalar(y) || !isScalar(z)) body.fail("the vertices lack one of x, y, z");
   const bool normals = isScalar(nx) && isScalar(ny) && isScalar(nz), uvs = isScalar(u) && isScalar(v);
@@ -221,7 +234,8 @@ void readVertices(const Element& element, Body& body, PolygonSoup& soup, Job& jo
 
 void readFaces(const Element& element, Body& body, PolygonSoup& soup, Job& job) {
   const int indices = element.find({"vertex_indices", "vertex_index"});
-  if (indices < 0 || !element.properties[indices].isList) body.fail("the faces have no list of vertex indices");
+  if (indices < 0 || !element.properties[indices].isList)
+    body.fail("the faces have no list of vertex indices");
   for (std::size_t i = 0; i < element.count; ++i) {
     if (i % 4096 == 0) job.checkCancelled();
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -231,7 +245,8 @@ void readFaces(const Element& element, Body& body, PolygonSoup& soup, Job& job) 
         continue;
       }
       const std::size_t corners = body.listCount(property);
-      for (std::size_t c = 0; c < corners; ++c) soup.cornerVertex.push_back(indexFrom(body.value(property.type)));
+      for (std::size_t c = 0; c < corners; ++c)
+        soup.cornerVertex.push_back(indexFrom(body.value(property.type)));
       soup.endFace();
     }
   }
@@ -240,7 +255,8 @@ void readFaces(const Element& element, Body& body, PolygonSoup& soup, Job& job) 
 /// Triangle strips, each ended by -1, every second triangle turned over.
 void readStrips(const Element& element, Body& body, PolygonSoup& soup, Job& job) {
   const int indices = element.find({"vertex_indices", "vertex_index"});
-  if (indices < 0 || !element.properties[indices].isList) body.fail("the strips have no list of vertex indices");
+  if (indices < 0 || !element.properties[indices].isList)
+    body.fail("the strips have no list of vertex indices");
   for (std::size_t i = 0; i < element.count; ++i)
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const Property& property = element.properties[k];
@@ -283,8 +299,8 @@ PolygonSoup parsePly(std::string_view bytes, const MeshSource& source, Job& job)
     const std::size_t smallest = element.smallestRow(ascii);
     if (smallest == 0) continue;
     if (element.count > (body.remaining() + 1) / smallest)
-      body.fail("the header promises " + std::to_string(element.count) + " of '" + element.name.substr(0, 40) +
-                "', more than the file holds");
+      body.fail("the header promises " + std::to_string(element.count) + " of '" +
+                element.name.substr(0, 40) + "', more than the file holds");
     if (element.name == "vertex" && soup.positions.empty()) {
       readVertices(element, body, soup, job);
     } else if (element.name == "face") {

@@ -1,8 +1,8 @@
 #include "libprt/mesh/repair.h"
 
 #include "libprt/core/error.h"
+#include "libprt/mesh/assemble.h"
 #include "libprt/mesh/cancel_check.h"
-#include "libprt/mesh/dense_index.h"
 #include "libprt/mesh/duplicates.h"
 #include "libprt/mesh/fans.h"
 #include "libprt/mesh/mesh_reader.h"
@@ -12,8 +12,6 @@
 #include "libprt/mesh/weld.h"
 
 #include <algorithm>
-#include <bit>
-#include <numeric>
 
 namespace prt {
 namespace {
@@ -22,11 +20,14 @@ constexpr double kSmallest = 1e-6, kLargest = 1e9;  // extents whose squared are
 /// A mesh this many times its size away from the origin is moved: floats would lose its shape.
 constexpr double kFarAway = 16;
 
-bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool finite(const DVec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 class Repair {
  public:
-  Repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) : soup_(soup), options_(options), job_(job), check_(job) {}
+  Repair(const PolygonSoup& soup, const RepairOptions& options, Job& job)
+      : soup_(soup), options_(options), job_(job), check_(job) {}
 
   RepairedMesh run() {
     report_.before = diagnose(soup_, job_);
@@ -45,14 +46,12 @@ class Repair {
     orient();
     if (options_.splitNonManifold) split();
     step();
-    normals();
+    const std::vector<Vec3> shading = normals();
     step();
-    RepairedMesh result = assemble();
+    Assembly assembly =
+        assemble({soup_, positions_, triangles_, corners_, shading, !options_.removeUnreferenced}, job_);
     step();
-    report_.after = diagnose(toSoup(result.mesh), representative_, job_);
-    report_.after.duplicateVertices = {};  // those are creases, and places that were parted on purpose
-    result.report = std::move(report_);
-    return result;
+    return finish(std::move(assembly));
   }
 
  private:
@@ -60,17 +59,20 @@ class Repair {
     job_.advance(1);
     job_.checkCancelled();
   }
+
   [[noreturn]] void fail(const std::string& problem, const std::string& fix) const {
     throw GeometryError(problem, soup_.source, fix);
   }
 
   [[noreturn]] void failEmpty() const {
-    fail(std::string("has no usable face: ").append(toText(report_.before)), "repair or export the mesh again");
+    fail(std::string("has no usable face: ").append(toText(report_.before)),
+         "repair or export the mesh again");
   }
 
   void checkUsable() const {
     if (soup_.faceCount() == 0)
-      fail(soup_.positions.empty() ? "holds no mesh" : "holds points but no faces", "give a mesh with triangles or polygons");
+      fail(soup_.positions.empty() ? "holds no mesh" : "holds points but no faces",
+           "give a mesh with triangles or polygons");
     if (report_.before.triangles == 0) failEmpty();
     const DVec3 extent = report_.before.high - report_.before.low;
     const double size = std::max({extent.x, extent.y, extent.z});
@@ -104,9 +106,11 @@ class Repair {
     for (std::uint32_t f = 0; f < soup_.faceCount(); ++f) {
       check_();
       const auto face = soup_.face(f);
-      if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return v >= soup_.positions.size(); })) {
+      if (std::any_of(face.begin(), face.end(),
+                      [&](std::uint32_t v) { return v >= soup_.positions.size(); })) {
         ++report_.droppedOutOfRange;
-      } else if (std::any_of(face.begin(), face.end(), [&](std::uint32_t v) { return !finite(soup_.positions[v]); })) {
+      } else if (std::any_of(face.begin(), face.end(),
+                             [&](std::uint32_t v) { return !finite(soup_.positions[v]); })) {
         ++report_.droppedNonFinite;
       } else if (face.size() < 3) {
         ++report_.droppedDegenerate;
@@ -168,8 +172,10 @@ class Repair {
     if (!soup_.normals.empty() && !soup_.cornerNormal.empty()) {
       votes.resize(triangles_.size());
       for (std::size_t f = 0; f < triangles_.size(); ++f) {
-        const DVec3 a(positions_[triangles_[f].x]), b(positions_[triangles_[f].y]), c(positions_[triangles_[f].z]);
-        const DVec3 sum = DVec3(fileNormal(corners_[f].x)) + DVec3(fileNormal(corners_[f].y)) + DVec3(fileNormal(corners_[f].z));
+        const DVec3 a(positions_[triangles_[f].x]), b(positions_[triangles_[f].y]),
+            c(positions_[triangles_[f].z]);
+        const DVec3 sum = DVec3(fileNormal(corners_[f].x)) + DVec3(fileNormal(corners_[f].y)) +
+                          DVec3(fileNormal(corners_[f].z));
         const double agreement = dot(cross(b - a, c - a), sum);
         votes[f] = agreement > 0 ? 1.0f : agreement < 0 ? -1.0f : 0.0f;
       }
@@ -187,11 +193,13 @@ class Repair {
   void split() {
     FanSplit fans = splitIntoFans(triangles_, positions_.size(), job_);
     report_.splitVertices = fans.source.size() - positions_.size();
-    for (std::size_t v = positions_.size(); v < fans.source.size(); ++v) positions_.push_back(positions_[fans.source[v]]);
+    for (std::size_t v = positions_.size(); v < fans.source.size(); ++v)
+      positions_.push_back(positions_[fans.source[v]]);
     triangles_ = std::move(fans.triangles);
   }
 
-  void normals() {
+  /// A shading normal for each corner.
+  std::vector<Vec3> normals() {
     std::vector<Vec3> fromFile;
     if (options_.keepNormals && !soup_.normals.empty() && !soup_.cornerNormal.empty()) {
       fromFile.reserve(3 * triangles_.size());
@@ -201,32 +209,22 @@ class Repair {
           fromFile.push_back(!flipped_.empty() && flipped_[f] ? -n : n);
         }
     }
-    cornerNormals_ = cornerNormals({positions_, triangles_, fromFile, options_.creaseAngle}, job_);
-    report_.keptNormals = cornerNormals_.kept;
-    report_.computedNormals = 3 * triangles_.size() - cornerNormals_.kept;
+    CornerNormals result = cornerNormals({positions_, triangles_, fromFile, options_.creaseAngle}, job_);
+    report_.keptNormals = result.kept;
+    report_.computedNormals = 3 * triangles_.size() - result.kept;
+    return std::move(result.normals);
   }
 
-  /// One vertex for each position and normal, in the order of the file's vertices.
-  RepairedMesh assemble() {
+  RepairedMesh finish(Assembly assembly) {
+    report_.weldedVertices = assembly.weldedVertices;
+    report_.removedVertices = assembly.removedVertices;
+    report_.creaseVertices = assembly.creaseVertices;
+    report_.filledUvs = assembly.filledUvs;
+    report_.after = diagnose(toSoup(assembly.mesh), assembly.representative, job_);
+    report_.after.duplicateVertices = {};  // those are creases, and places that were parted on purpose
     RepairedMesh result;
-    TriMesh& mesh = result.mesh;
-    DenseIndex<4> variants(positions_.size());
-    std::vector<std::uint32_t> variantOfCorner, fileVertex;
-    for (std::size_t c = 0; c < 3 * triangles_.size(); ++c) {
-      check_();
-      const Vec3& n = cornerNormals_.normals[c];
-      const std::uint32_t original = soup_.cornerVertex[corners_[c / 3][int(c % 3)]];
-      const std::uint32_t variant = variants.insert({triangles_[c / 3][int(c % 3)], keyBits(n.x), keyBits(n.y), keyBits(n.z)});
-      if (variant == fileVertex.size()) fileVertex.push_back(original);
-      fileVertex[variant] = std::min(fileVertex[variant], original);
-      variantOfCorner.push_back(variant);
-    }
-    const std::vector<std::uint32_t> vertexOfVariant = orderVertices(variants, fileVertex, mesh);
-    for (std::size_t f = 0; f < triangles_.size(); ++f)
-      mesh.triangles.push_back({vertexOfVariant[variantOfCorner[3 * f]], vertexOfVariant[variantOfCorner[3 * f + 1]],
-                                vertexOfVariant[variantOfCorner[3 * f + 2]]});
-    textureCoordinates(mesh);
-    countVertices(mesh.vertexCount());
+    result.mesh = std::move(assembly.mesh);
+    result.report = std::move(report_);
     if (!soup_.faceMaterial.empty()) {
       for (std::uint32_t f : faceOf_) result.triangleMaterial.push_back(soup_.faceMaterial[f]);
       result.materials = soup_.materials;
@@ -234,106 +232,29 @@ class Repair {
     return result;
   }
 
-  /// Fills the mesh's vertices in the order of the file's vertices that they stem from; returns the vertex
-  /// of each variant.
-  std::vector<std::uint32_t> orderVertices(const DenseIndex<4>& variants, const std::vector<std::uint32_t>& fileVertex,
-                                           TriMesh& mesh) {
-    std::vector<std::uint32_t> start(soup_.positions.size() + 1, 0);
-    for (std::uint32_t v : fileVertex) ++start[v + 1];
-    alone_ = loneVertices();
-    for (std::size_t v = 0; v < soup_.positions.size(); ++v) start[v + 1] += start[v] + (alone_[v] ? 1 : 0);
-    mesh.positions.resize(start.back());
-    mesh.normals.assign(start.back(), Vec3(0, 1, 0));
-    representative_.resize(start.back());
-    std::iota(representative_.begin(), representative_.end(), 0u);
-    for (std::size_t v = 0; v < alone_.size(); ++v)
-      if (alone_[v]) mesh.positions[start[v]++] = positions_[v];
-
-    std::vector<std::uint32_t> vertexOfVariant(variants.size()), firstAt(positions_.size(), kNoIndex);
-    std::size_t places = 0;
-    for (std::uint32_t i = 0; i < variants.size(); ++i) {
-      check_();
-      const auto& [place, x, y, z] = variants.key(i);
-      const std::uint32_t vertex = vertexOfVariant[i] = start[fileVertex[i]]++;
-      mesh.positions[vertex] = positions_[place];
-      mesh.normals[vertex] = Vec3(std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z));
-      if (firstAt[place] == kNoIndex) firstAt[place] = vertex, ++places;
-      representative_[vertex] = firstAt[place];
-    }
-    report_.creaseVertices = variants.size() - places;
-    return vertexOfVariant;
-  }
-
-  /// [V] finite vertices of no triangle that shall stay.
-  std::vector<bool> loneVertices() const {
-    std::vector<bool> alone(soup_.positions.size(), !options_.removeUnreferenced);
-    if (options_.removeUnreferenced) return alone;
-    for (std::size_t v = 0; v < alone.size(); ++v) alone[v] = finite(soup_.positions[v]);
-    for (std::uint32_t v : soup_.cornerVertex)
-      if (v < alone.size()) alone[v] = false;
-    return alone;
-  }
-
-  /// Vertices of the file that no triangle kept, and those that went into others.
-  void countVertices(std::size_t made) {
-    std::vector<bool> isUsed(soup_.positions.size(), false);
-    for (const UVec3& corners : corners_)
-      for (int i = 0; i < 3; ++i) isUsed[soup_.cornerVertex[corners[i]]] = true;
-    const auto count = [](const std::vector<bool>& flags) { return std::size_t(std::count(flags.begin(), flags.end(), true)); };
-    const std::size_t used = count(isUsed), alone = count(alone_);
-    const std::size_t madeOfUsed = made - alone - report_.splitVertices;
-    report_.removedVertices = soup_.positions.size() - used - alone;
-    report_.weldedVertices = used > madeOfUsed ? used - madeOfUsed : 0;
-  }
-
-  void textureCoordinates(TriMesh& mesh) {
-    if (soup_.uv.empty() || soup_.cornerUv.empty()) return;
-    std::vector<std::uint32_t> newIndex(soup_.uv.size(), kNoIndex);
-    std::uint32_t filler = kNoIndex;
-    const auto append = [&](const Vec2& uv) {
-      mesh.uv.push_back(uv);
-      return std::uint32_t(mesh.uv.size() - 1);
-    };
-    const auto indexOf = [&](std::uint32_t corner) {
-      const std::uint32_t old = soup_.cornerUv[corner];
-      if (old < soup_.uv.size() && std::isfinite(soup_.uv[old].x) && std::isfinite(soup_.uv[old].y)) {
-        if (newIndex[old] == kNoIndex) newIndex[old] = append(soup_.uv[old]);
-        return newIndex[old];
-      }
-      ++report_.filledUvs;
-      if (filler == kNoIndex) filler = append(Vec2(0));
-      return filler;
-    };
-    for (const UVec3& c : corners_) {
-      const std::uint32_t x = indexOf(c.x), y = indexOf(c.y), z = indexOf(c.z);
-      mesh.uvTriangles.push_back({x, y, z});
-    }
-  }
-
   const PolygonSoup& soup_;
   const RepairOptions& options_;
   Job& job_;
   CancelCheck check_;
   RepairReport report_;
-  std::vector<Vec3> positions_;             // [V], and copies made by splitting
-  std::vector<std::uint32_t> vertexOf_;     // [V] the vertex that stands for each
-  std::vector<UVec3> triangles_;            // [F] vertices
-  std::vector<UVec3> corners_;              // [F] the soup's corners
-  std::vector<std::uint32_t> faceOf_;       // [F] the soup's face
-  std::vector<bool> flipped_;               // [F] against the file
-  std::vector<bool> alone_;                 // [V] kept without a triangle
-  std::vector<std::uint32_t> representative_;  // [result's V] the first vertex at the same place of the surface
-  CornerNormals cornerNormals_;
+  std::vector<Vec3> positions_;          // [V], and copies made by splitting
+  std::vector<std::uint32_t> vertexOf_;  // [V] the vertex that stands for each
+  std::vector<UVec3> triangles_;         // [F] vertices
+  std::vector<UVec3> corners_;           // [F] the soup's corners
+  std::vector<std::uint32_t> faceOf_;    // [F] the soup's face
+  std::vector<bool> flipped_;            // [F] against the file
 };
 
 }  // namespace
 
 RepairedMesh repair(const PolygonSoup& soup, const RepairOptions& options, Job& job) {
-  if (!(options.creaseAngle >= 0)) throw ValueError("the crease angle is negative", "repair options", "give 0 to pi");
+  if (!(options.creaseAngle >= 0))
+    throw ValueError("the crease angle is negative", "repair options", "give 0 to pi");
   return Repair(soup, options, job).run();
 }
 
-TriMesh loadMesh(const std::filesystem::path& path, const RepairOptions& options, Job& job, RepairReport* report) {
+TriMesh loadMesh(const std::filesystem::path& path, const RepairOptions& options, Job& job,
+                 RepairReport* report) {
   RepairedMesh repaired = repair(readMesh(path, job), options, job);
   if (report) *report = std::move(repaired.report);
   return std::move(repaired.mesh);

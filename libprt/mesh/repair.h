@@ -38,21 +38,21 @@ struct RepairReport {
   MeshReport after;   ///< the result
   DVec3 offset{0};    ///< add it to the result's positions to get the file's
 
-  std::size_t weldedVertices = 0;       ///< fewer of them, because positions and normals are the same
-  std::size_t removedVertices = 0;      ///< of no triangle that was kept
-  std::size_t droppedOutOfRange = 0;    ///< faces
-  std::size_t droppedNonFinite = 0;     ///< faces
-  std::size_t droppedDegenerate = 0;    ///< faces and cut-off triangles without area
-  std::size_t droppedDuplicates = 0;    ///< triangles
-  std::size_t cutPolygons = 0;          ///< faces of more than three corners made into triangles
+  std::size_t weldedVertices = 0;     ///< fewer of them, because positions and normals are the same
+  std::size_t removedVertices = 0;    ///< of no triangle that was kept
+  std::size_t droppedOutOfRange = 0;  ///< faces
+  std::size_t droppedNonFinite = 0;   ///< faces
+  std::size_t droppedDegenerate = 0;  ///< faces and cut-off triangles without area
+  std::size_t droppedDuplicates = 0;  ///< triangles
+  std::size_t cutPolygons = 0;        ///< faces of more than three corners made into triangles
   std::size_t flippedTriangles = 0;
-  std::size_t splitVertices = 0;        ///< made to part non-manifold places
-  std::size_t creaseVertices = 0;       ///< vertices beyond one per position, because normals differ there
-  std::size_t keptNormals = 0;          ///< corners whose normal is the file's
-  std::size_t computedNormals = 0;      ///< corners whose normal was computed
-  std::size_t filledUvs = 0;            ///< corners without usable texture coordinates, set to (0, 0)
-  std::string unit;                     ///< of the file's lengths, when it says so
-  std::vector<std::string> notes;       ///< from the reader
+  std::size_t splitVertices = 0;    ///< made to part non-manifold places
+  std::size_t creaseVertices = 0;   ///< vertices beyond one per position, because normals differ there
+  std::size_t keptNormals = 0;      ///< corners whose normal is the file's
+  std::size_t computedNormals = 0;  ///< corners whose normal was computed
+  std::size_t filledUvs = 0;        ///< corners without usable texture coordinates, set to (0, 0)
+  std::string unit;                 ///< of the file's lengths, when it says so
+  std::vector<std::string> notes;   ///< from the reader
 
   bool changedAnything() const;
 };
@@ -70,7 +70,8 @@ struct RepairedMesh {
 
 /// Makes a mesh fit to bake: finite, indexed, triangles with area, unit normals that face the front.
 /// Near linear in the size of the soup; the result does not depend on the number of threads.
-/// Throws GeometryError when no usable face is left, or the extent of what is left is not within 1e-6..1e9 units.
+/// Throws GeometryError when no usable face is left, or the extent of what is left is not within 1e-6..1e9
+/// units.
 RepairedMesh repair(const PolygonSoup& soup, const RepairOptions& options, Job& job);
 
 /// Reads a file (see mesh_reader.h for formats) and repairs it. Throws FileError and GeometryError.

@@ -22,7 +22,9 @@ std::string counted(std::size_t number, const std::string& singular, const std::
   return grouped(number) + " " + (number == 1 ? singular : many);
 }
 
-void list(std::string& text, const std::string& item) { text.append(text.empty() ? "" : ", ").append(item); }
+void list(std::string& text, const std::string& item) {
+  text.append(text.empty() ? "" : ", ").append(item);
+}
 
 struct NamedDefect {
   const char* key;
@@ -32,21 +34,26 @@ struct NamedDefect {
 };
 
 constexpr NamedDefect kDefects[] = {
-    {"out_of_range_faces", "face with an index out of range", "faces with an index out of range", &MeshReport::outOfRangeFaces},
+    {"out_of_range_faces", "face with an index out of range", "faces with an index out of range",
+     &MeshReport::outOfRangeFaces},
     {"non_finite_vertices", "non-finite vertex", "non-finite vertices", &MeshReport::nonFiniteVertices},
     {"degenerate_faces", "degenerate face", "degenerate faces", &MeshReport::degenerateFaces},
     {"duplicate_faces", "duplicate face", "duplicate faces", &MeshReport::duplicateFaces},
     {"duplicate_vertices", "duplicate vertex", "duplicate vertices", &MeshReport::duplicateVertices},
-    {"unreferenced_vertices", "unreferenced vertex", "unreferenced vertices", &MeshReport::unreferencedVertices},
+    {"unreferenced_vertices", "unreferenced vertex", "unreferenced vertices",
+     &MeshReport::unreferencedVertices},
     {"non_manifold_edges", "non-manifold edge", "non-manifold edges", &MeshReport::nonManifoldEdges},
-    {"non_manifold_vertices", "non-manifold vertex", "non-manifold vertices", &MeshReport::nonManifoldVertices},
+    {"non_manifold_vertices", "non-manifold vertex", "non-manifold vertices",
+     &MeshReport::nonManifoldVertices},
     {"holes", "hole", "holes", &MeshReport::holes},
-    {"flipped_edges", "edge between faces wound against each other", "edges between faces wound against each other",
-     &MeshReport::flippedEdges},
+    {"flipped_edges", "edge between faces wound against each other",
+     "edges between faces wound against each other", &MeshReport::flippedEdges},
     {"inside_out", "inside-out closed surface", "inside-out closed surfaces", &MeshReport::insideOut},
 };
 
-Json vectorJson(const DVec3& v) { return {v.x, v.y, v.z}; }
+Json vectorJson(const DVec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 struct NamedCount {
   const char* key;
@@ -59,14 +66,18 @@ struct NamedCount {
 constexpr NamedCount kActions[] = {
     {"welded_vertices", "welded", "vertex", "vertices", &RepairReport::weldedVertices},
     {"removed_vertices", "removed", "unused vertex", "unused vertices", &RepairReport::removedVertices},
-    {"dropped_out_of_range", "dropped", "face with an index out of range", "faces with an index out of range", &RepairReport::droppedOutOfRange},
-    {"dropped_non_finite", "dropped", "face with a non-finite vertex", "faces with a non-finite vertex", &RepairReport::droppedNonFinite},
-    {"dropped_degenerate", "dropped", "degenerate face", "degenerate faces", &RepairReport::droppedDegenerate},
+    {"dropped_out_of_range", "dropped", "face with an index out of range", "faces with an index out of range",
+     &RepairReport::droppedOutOfRange},
+    {"dropped_non_finite", "dropped", "face with a non-finite vertex", "faces with a non-finite vertex",
+     &RepairReport::droppedNonFinite},
+    {"dropped_degenerate", "dropped", "degenerate face", "degenerate faces",
+     &RepairReport::droppedDegenerate},
     {"dropped_duplicates", "dropped", "duplicate face", "duplicate faces", &RepairReport::droppedDuplicates},
     {"cut_polygons", "cut up", "polygon", "polygons", &RepairReport::cutPolygons},
     {"flipped_triangles", "flipped", "triangle", "triangles", &RepairReport::flippedTriangles},
     {"split_vertices", "split", "non-manifold vertex", "non-manifold vertices", &RepairReport::splitVertices},
-    {"filled_uvs", "set", "missing texture coordinate to (0, 0)", "missing texture coordinates to (0, 0)", &RepairReport::filledUvs},
+    {"filled_uvs", "set", "missing texture coordinate to (0, 0)", "missing texture coordinates to (0, 0)",
+     &RepairReport::filledUvs},
 };
 
 }  // namespace
@@ -82,7 +93,8 @@ std::string toText(const MeshReport& report) {
     const std::size_t count = (report.*d.member).count;
     if (count == 0) continue;
     list(defects, counted(count, d.singular, d.plural));
-    if (d.member == &MeshReport::holes) defects.append(" (").append(counted(report.boundaryEdges, "boundary edge")).append(")");
+    if (d.member == &MeshReport::holes)
+      defects.append(" (").append(counted(report.boundaryEdges, "boundary edge")).append(")");
   }
   return facts.append("; ").append(defects.empty() ? "no defects" : defects);
 }
@@ -117,7 +129,8 @@ std::string toText(const RepairReport& report) {
   std::string text;
   for (const NamedCount& action : kActions) {
     const std::size_t count = report.*action.member;
-    if (count > 0) list(text, std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
+    if (count > 0)
+      list(text, std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
   }
   if (report.offset != DVec3(0)) list(text, "moved to the origin to keep precision");
   return text.empty() ? "nothing to repair" : text;

@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 /// What a file says about the material of some faces.
 struct SoupMaterial {
   std::string name;
-  Rgb baseColor{0.8f};    ///< linear; the default when the file gives none
+  Rgb baseColor{0.8f};  ///< linear; the default when the file gives none
   bool hasColor = false;
 };
 

@@ -29,7 +29,8 @@ PolygonSoup parseBinary(std::string_view bytes, std::size_t facets, Job& job) {
     for (int corner = 0; corner < 3; ++corner) {
       const char* p = facet + 12 * (corner + 1);
       soup.cornerVertex.push_back(std::uint32_t(soup.positions.size()));
-      soup.positions.push_back({littleEndian<float>(p), littleEndian<float>(p + 4), littleEndian<float>(p + 8)});
+      soup.positions.push_back(
+          {littleEndian<float>(p), littleEndian<float>(p + 4), littleEndian<float>(p + 8)});
     }
     soup.endFace();
   }
@@ -83,15 +84,16 @@ PolygonSoup parseStl(std::string_view bytes, const MeshSource& source, Job& job)
   const std::size_t promised = bytes.size() >= kHeader ? littleEndian<std::uint32_t>(bytes.data() + 80) : 0;
   const bool exact = bytes.size() >= kHeader && bytes.size() == kHeader + kFacet * promised;
   const std::string start = lowerCase(bytes.substr(0, std::min<std::size_t>(bytes.size(), 1024)));
-  const bool looksAscii = TextScanner(start, source.name).word() == "solid" &&
-                          start.find('\0') == std::string::npos && !exact;
+  const bool looksAscii =
+      TextScanner(start, source.name).word() == "solid" && start.find('\0') == std::string::npos && !exact;
   if (looksAscii) {
     soup = parseAscii(bytes, source, job);
   } else {
-    if (bytes.size() < kHeader) throw FileError("too short for an STL file", source.name, "export the file again");
+    if (bytes.size() < kHeader)
+      throw FileError("too short for an STL file", source.name, "export the file again");
     if (promised > held)
-      throw FileError("holds " + std::to_string(held) + " of " + std::to_string(promised) + " facets", source.name,
-                      "the file is cut off; copy or export it again");
+      throw FileError("holds " + std::to_string(held) + " of " + std::to_string(promised) + " facets",
+                      source.name, "the file is cut off; copy or export it again");
     soup = parseBinary(bytes, promised, job);
     if (!exact) soup.notes.push_back("bytes after the last facet were ignored");
   }

@@ -84,7 +84,8 @@ std::vector<Vec3> directionField(const TriMesh& mesh, int sweeps, Job& job) {
 // ---------------------------------------------------------------------------------------------------------
 // With UVs
 
-/// Direction of growing u on a triangle, unit; zero when its UVs have no area. `mirrored`: v runs the other way.
+/// Direction of growing u on a triangle, unit; zero when its UVs have no area. `mirrored`: v runs the other
+/// way.
 Vec3 directionOfU(const TriMesh& mesh, std::size_t f, bool* mirrored) {
   const UVec3 &t = mesh.triangles[f], &w = mesh.uvTriangles[f];
   const DVec3 e1 = DVec3(mesh.positions[t.y]) - DVec3(mesh.positions[t.x]);
@@ -102,7 +103,8 @@ Vec3 directionOfU(const TriMesh& mesh, std::size_t f, bool* mirrored) {
 double cornerAngle(const TriMesh& mesh, std::size_t f, int corner) {
   const UVec3& t = mesh.triangles[f];
   const DVec3 here(mesh.positions[t[corner]]);
-  const DVec3 a = DVec3(mesh.positions[t[(corner + 1) % 3]]) - here, b = DVec3(mesh.positions[t[(corner + 2) % 3]]) - here;
+  const DVec3 a = DVec3(mesh.positions[t[(corner + 1) % 3]]) - here,
+              b = DVec3(mesh.positions[t[(corner + 2) % 3]]) - here;
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
@@ -118,7 +120,8 @@ std::vector<Vec3> tangentsFromUvs(const TriMesh& mesh, Job& job) {
     bool mirrored = false;
     own[f] = directionOfU(mesh, f, &mirrored);
     for (int i = 0; i < 3; ++i) {
-      const std::uint32_t group = groups.insert({place[mesh.triangles[f][i]], mesh.uvTriangles[f][i], mirrored ? 1u : 0u});
+      const std::uint32_t group =
+          groups.insert({place[mesh.triangles[f][i]], mesh.uvTriangles[f][i], mirrored ? 1u : 0u});
       if (group == sums.size()) sums.push_back(DVec3(0));
       groupOf[3 * f + std::size_t(i)] = group;
       const Vec3 flat = tangentPart(own[f], mesh.normals[mesh.triangles[f][i]]);

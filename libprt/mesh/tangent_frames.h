@@ -9,7 +9,8 @@
 namespace prt {
 
 struct TangentFrames {
-  std::vector<Vec3> tangents;  ///< [3F] unit, at a right angle to the shading normal; corner i of triangle f is 3 f + i
+  std::vector<Vec3>
+      tangents;  ///< [3F] unit, at a right angle to the shading normal; corner i of triangle f is 3 f + i
 
   /// Right-handed, z = the shading normal at that corner.
   Frame at(const TriMesh& mesh, std::size_t triangle, int corner) const {

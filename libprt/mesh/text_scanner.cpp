@@ -9,7 +9,9 @@
 namespace prt {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
 
 }  // namespace
 
@@ -27,7 +29,8 @@ std::optional<double> parseNumber(std::string_view word) {
   double value = 0;
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error == std::errc::result_out_of_range && stop == end) return std::strtod(std::string(word).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range && stop == end)
+    return std::strtod(std::string(word).c_str(), nullptr);
   if (error != std::errc()) return {};
   if (stop == end) return value;
   if (*stop == '#' && end - stop > 1) return std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +87,9 @@ std::string_view TextScanner::word() {
   return wordOnLine();
 }
 
-void TextScanner::skipLine() { restOfLine(); }
+void TextScanner::skipLine() {
+  restOfLine();
+}
 
 std::string_view TextScanner::restOfLine() {
   const std::size_t newline = text_.find('\n', position_);

@@ -53,8 +53,8 @@ class ReflexGrid {
         *work += 1 + cell.size();
         for (std::uint32_t i : cell) {
           const DVec2& p = points_[i];
-          if (matters(i) && p != a && p != b && p != c && twiceArea(a, b, p) >= 0 && twiceArea(b, c, p) >= 0 &&
-              twiceArea(c, a, p) >= 0)
+          if (matters(i) && p != a && p != b && p != c && twiceArea(a, b, p) >= 0 &&
+              twiceArea(b, c, p) >= 0 && twiceArea(c, a, p) >= 0)
             return true;
         }
       }
@@ -105,12 +105,15 @@ class EarClipper {
   }
 
  private:
-  double turn(std::uint32_t i) const { return twiceArea(points_[previous_[i]], points_[i], points_[next_[i]]); }
+  double turn(std::uint32_t i) const {
+    return twiceArea(points_[previous_[i]], points_[i], points_[next_[i]]);
+  }
 
   bool isEar(std::uint32_t i, const ReflexGrid& grid, std::size_t* work) const {
     if (reflex_[i]) return false;
-    return !grid.anyInside(points_[previous_[i]], points_[i], points_[next_[i]],
-                           [&](std::uint32_t k) { return reflex_[k]; }, work);
+    return !grid.anyInside(
+        points_[previous_[i]], points_[i], points_[next_[i]], [&](std::uint32_t k) { return reflex_[k]; },
+        work);
   }
 
   void clip(std::uint32_t i) {

@@ -8,7 +8,9 @@ namespace {
 
 using Key = DenseIndex<6>::Key;
 
-bool finite(const DVec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool finite(const DVec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 Key keyOf(const DVec3& p) {
   Key key;
@@ -40,7 +42,11 @@ std::vector<std::uint32_t> weld(std::span<const Point> positions, Job& job) {
 
 }  // namespace
 
-std::vector<std::uint32_t> weldByPosition(std::span<const DVec3> positions, Job& job) { return weld(positions, job); }
-std::vector<std::uint32_t> weldByPosition(std::span<const Vec3> positions, Job& job) { return weld(positions, job); }
+std::vector<std::uint32_t> weldByPosition(std::span<const DVec3> positions, Job& job) {
+  return weld(positions, job);
+}
+std::vector<std::uint32_t> weldByPosition(std::span<const Vec3> positions, Job& job) {
+  return weld(positions, job);
+}
 
 }  // namespace prt

@@ -24,8 +24,11 @@ constexpr char kRich[] =
 
 const prt::fuzz::Target prt::fuzz::target{
     .name = "gltf",
-    .seeds = [] { return joined(joined(writtenSeeds(".glb"), writtenSeeds(".gltf")), {kRich, kRich}); },
-    .words = {"\"sparse\":", "\"mode\":6,", "\"children\":[0],", "\"byteStride\":4,", "null", "[", "{", "\"uri\":\"a.bin\",", "18446744073709551615",
-              "\"extensionsRequired\":[\"x\"],", "-1"},
+    .seeds =
+        [] {
+          return joined(joined(writtenSeeds(".glb"), writtenSeeds(".gltf")), {kRich, kRich});
+        },
+    .words = {"\"sparse\":", "\"mode\":6,", "\"children\":[0],", "\"byteStride\":4,", "null", "[", "{",
+              "\"uri\":\"a.bin\",", "18446744073709551615", "\"extensionsRequired\":[\"x\"],", "-1"},
     .runs = 30000,
     .memoryPerByte = 64 * 1024};  // instances may repeat a mesh, see gltf_reader.cpp

@@ -30,15 +30,16 @@ inline void requireUsable(const TriMesh& mesh) {
     for (int i = 0; i < 3; ++i) require(t[i] < mesh.uv.size() && std::isfinite(mesh.uv[t[i]].x));
 }
 
-inline int fuzzMesh(PolygonSoup (*parser)(std::string_view, const MeshSource&, Job&), const std::uint8_t* data,
-                    std::size_t size) {
+inline int fuzzMesh(PolygonSoup (*parser)(std::string_view, const MeshSource&, Job&),
+                    const std::uint8_t* data, std::size_t size) {
   Job job;
   try {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
     const PolygonSoup soup = parser(bytes, {"fuzzed", {}}, job);
     require(soup.faceStart.back() == soup.cornerCount());
     for (const bool split : {false, true}) {
-      const RepairedMesh repaired = repair(soup, {.splitNonManifold = split, .creaseAngle = split ? 0.5f : kPiF}, job);
+      const RepairedMesh repaired =
+          repair(soup, {.splitNonManifold = split, .creaseAngle = split ? 0.5f : kPiF}, job);
       requireUsable(repaired.mesh);
       require(!toText(repaired.report).empty());
       if (repaired.mesh.triangleCount() > 2000) continue;

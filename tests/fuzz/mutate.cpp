@@ -9,14 +9,30 @@ namespace {
 
 constexpr std::size_t kLongest = 1 << 16;
 
-const char* const kNumbers[] = {"0",          "-1",          "1",     "2147483647", "2147483648", "-2147483649",
-                                "4294967295", "4294967296",  "1e39",  "-1e309",     "1e-320",     "99999999999999999999",
-                                "nan",        "inf",         "-0",    "65536",      "255",        "0.1e"};
+const char* const kNumbers[] = {
+    "0",          "-1",         "1",    "2147483647", "2147483648", "-2147483649",
+    "4294967295", "4294967296", "1e39", "-1e309",     "1e-320",     "99999999999999999999",
+    "nan",        "inf",        "-0",   "65536",      "255",        "0.1e"};
 
-const std::uint64_t kIntegers[] = {0, 1, 0x7f, 0x80, 0xff, 0x7fff, 0xffff, 0x7fffffff, 0x80000000, 0xfffffffe,
-                                   0xffffffff, 0x7fffffffffffffff, 0xffffffffffffffff, 0x7fc00000, 0x7f800000};
+const std::uint64_t kIntegers[] = {0,
+                                   1,
+                                   0x7f,
+                                   0x80,
+                                   0xff,
+                                   0x7fff,
+                                   0xffff,
+                                   0x7fffffff,
+                                   0x80000000,
+                                   0xfffffffe,
+                                   0xffffffff,
+                                   0x7fffffffffffffff,
+                                   0xffffffffffffffff,
+                                   0x7fc00000,
+                                   0x7f800000};
 
-bool inNumber(char c) { return std::isdigit(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+'; }
+bool inNumber(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+';
+}
 
 }  // namespace
 
@@ -34,7 +50,8 @@ std::string Mutator::next() {
 }
 
 void Mutator::change(std::string& input) {
-  const std::size_t at = below(input.size() + 1), length = std::min(1 + below(32), input.size() - std::min(at, input.size()));
+  const std::size_t at = below(input.size() + 1),
+                    length = std::min(1 + below(32), input.size() - std::min(at, input.size()));
   switch (below(10)) {
     case 0:
       if (at < input.size()) input[at] = char(input[at] ^ (1 << below(8)));

@@ -10,8 +10,11 @@ const prt::fuzz::Target prt::fuzz::target{
     .seeds =
         [] {
           return joined(writtenSeeds(".stl"),
-                        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                         "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nvertex 0 2 0\nendloop\nendfacet\nendsolid a\n"});
+                        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                         "0\nendloop\nendfacet\n"
+                         "facet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nvertex 0 "
+                         "2 0\nendloop\nendfacet\nendsolid a\n"});
         },
-    .words = {"solid", "facet normal 0 0 1\n", "outer loop\n", "vertex ", "endloop\n", "endfacet\n", "endsolid\n", "\n"},
+    .words = {"solid", "facet normal 0 0 1\n", "outer loop\n", "vertex ", "endloop\n", "endfacet\n",
+              "endsolid\n", "\n"},
     .runs = 40000};

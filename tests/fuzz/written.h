@@ -20,7 +20,8 @@ inline std::vector<std::string> writtenSeeds(const std::string& extension) {
   return seeds;
 }
 
-inline std::vector<std::string> joined(std::vector<std::string> some, const std::vector<std::string>& others) {
+inline std::vector<std::string> joined(std::vector<std::string> some,
+                                       const std::vector<std::string>& others) {
   some.insert(some.end(), others.begin(), others.end());
   return some;
 }

@@ -81,14 +81,17 @@ TEST(Diagnose, ZerosOfBothSignsAreOnePosition) {
 }
 
 TEST(Diagnose, FindsDegenerateFaces) {
-  const MeshReport report = reportOf(soupOf({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 1, 0}},
-                                            {{0, 1, 3}, {0, 1, 2}, {0, 0, 1}, {0, 3, 4}, {0, 1}, {}, {0, 1, 0, 1}}));
+  const MeshReport report =
+      reportOf(soupOf({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 1, 0}},
+                      {{0, 1, 3}, {0, 1, 2}, {0, 0, 1}, {0, 3, 4}, {0, 1}, {}, {0, 1, 0, 1}}));
   EXPECT_THAT(report.degenerateFaces.first, ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_EQ(report.triangles, 2u) << "the collinear one spans three positions";
 }
 
 TEST(Diagnose, SmallTrianglesAreNotDegenerate) {
-  EXPECT_EQ(reportOf(soupOf({{5, 5, 5}, {5 + 1e-9, 5, 5}, {5, 5 + 1e-9, 5}}, {{0, 1, 2}})).degenerateFaces.count, 0u);
+  EXPECT_EQ(
+      reportOf(soupOf({{5, 5, 5}, {5 + 1e-9, 5, 5}, {5, 5 + 1e-9, 5}}, {{0, 1, 2}})).degenerateFaces.count,
+      0u);
 }
 
 TEST(Diagnose, FindsDuplicateFacesInAnyOrder) {
@@ -101,14 +104,16 @@ TEST(Diagnose, FindsDuplicateFacesInAnyOrder) {
 }
 
 TEST(Diagnose, FindsNonManifoldEdges) {
-  const MeshReport report = reportOf(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  const MeshReport report = reportOf(
+      soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   EXPECT_THAT(report.nonManifoldEdges.first, ElementsAre(0));
   EXPECT_EQ(report.nonManifoldVertices.count, 0u);
   EXPECT_EQ(report.boundaryEdges, 6u);
 }
 
 TEST(Diagnose, FindsNonManifoldVertices) {
-  const MeshReport report = reportOf(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
+  const MeshReport report =
+      reportOf(soupOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
   EXPECT_THAT(report.nonManifoldVertices.first, ElementsAre(0));
   EXPECT_EQ(report.components, 1u) << "they share a position";
   EXPECT_EQ(report.holes.count, 2u) << "two triangles, two rims";
@@ -182,8 +187,10 @@ TEST(Diagnose, ListsTheFirstFewOnly) {
 TEST(Diagnose, TextIsOneLine) {
   auto faces = kCubeFaces;
   faces.pop_back();
-  EXPECT_EQ(toText(reportOf(soupOf(cubeCorners(), faces))), "8 vertices, 5 faces, 1 component, open; 1 hole (4 boundary edges)");
-  EXPECT_EQ(toText(reportOf(soupOf(cubeCorners(), kCubeFaces))), "8 vertices, 6 faces, 1 component, closed; no defects");
+  EXPECT_EQ(toText(reportOf(soupOf(cubeCorners(), faces))),
+            "8 vertices, 5 faces, 1 component, open; 1 hole (4 boundary edges)");
+  EXPECT_EQ(toText(reportOf(soupOf(cubeCorners(), kCubeFaces))),
+            "8 vertices, 6 faces, 1 component, closed; no defects");
 }
 
 TEST(Diagnose, JsonHasEveryDefect) {

@@ -59,7 +59,8 @@ TEST(DenseIndex, NumbersKeysAsASetDoes) {
   DenseIndex<2> index(3);
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> expected;
   for (int i = 0; i < 20000; ++i) {
-    const std::array<std::uint32_t, 2> key{std::uint32_t(random() % 100), std::uint32_t(random() % 100) << 24};
+    const std::array<std::uint32_t, 2> key{std::uint32_t(random() % 100), std::uint32_t(random() % 100)
+                                                                              << 24};
     const auto [it, isNew] = expected.try_emplace(key, std::uint32_t(expected.size()));
     ASSERT_EQ(index.insert(key), it->second);
     ASSERT_EQ(index.key(it->second), key);
@@ -69,7 +70,8 @@ TEST(DenseIndex, NumbersKeysAsASetDoes) {
 
 TEST(Weld, FindsTheFirstAtEachPosition) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<DVec3> points{{0, 0, 0}, {1, 0, 0}, {-0.0, 0, -0.0}, {nan, 0, 0}, {nan, 0, 0}, {1, 0, 0}, {1 + 1e-15, 0, 0}};
+  const std::vector<DVec3> points{{0, 0, 0},   {1, 0, 0}, {-0.0, 0, -0.0},  {nan, 0, 0},
+                                  {nan, 0, 0}, {1, 0, 0}, {1 + 1e-15, 0, 0}};
   Job job;
   EXPECT_THAT(weldByPosition(points, job), ElementsAre(0, 1, 0, 3, 4, 1, 6));
 }
@@ -92,9 +94,11 @@ void expectManifold(const std::vector<UVec3>& triangles, std::size_t vertices) {
       ASSERT_NE(corner[edges[e].sides[0]], corner[edges[e].sides[1]]);
     }
   }
-  UnionFind fans = cornerFans(edges, corner, nextInTriangle, [](const MeshEdge&) { return true; }, job);
+  UnionFind fans = cornerFans(
+      edges, corner, nextInTriangle, [](const MeshEdge&) { return true; }, job);
   std::map<std::uint32_t, std::uint32_t> fanOf;
-  for (std::uint32_t c = 0; c < corner.size(); ++c) ASSERT_EQ(fanOf.try_emplace(corner[c], fans.find(c)).first->second, fans.find(c));
+  for (std::uint32_t c = 0; c < corner.size(); ++c)
+    ASSERT_EQ(fanOf.try_emplace(corner[c], fans.find(c)).first->second, fans.find(c));
 }
 
 TEST(SplitIntoFans, LeavesManifoldsAlone) {
@@ -144,7 +148,8 @@ TEST(DuplicateTriangles, FinsGoAltogether) {
 
 TEST(DuplicateTriangles, WallsInsideASolidGoAltogether) {
   // Two tetrahedra on a shared face, each with its own copy of it.
-  const std::vector<UVec3> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 1, 2}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
+  const std::vector<UVec3> triangles{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3},
+                                     {0, 1, 2}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}};
   EXPECT_THAT(duplicates(triangles), ElementsAre(true, false, false, false, true, false, false, false));
 }
 

@@ -49,7 +49,8 @@ TEST_P(BuiltinMesh, HasUnitNormalsThatAgreeWithItsTriangles) {
   for (std::size_t f = 0; f < mesh.triangleCount(); ++f) {
     const Vec3 normal = mesh.areaNormal(f);
     ASSERT_GT(length(normal), 0);
-    for (int i = 0; i < 3; ++i) ASSERT_GT(dot(normal, mesh.normals[mesh.triangles[f][i]]), 0) << "triangle " << f;
+    for (int i = 0; i < 3; ++i)
+      ASSERT_GT(dot(normal, mesh.normals[mesh.triangles[f][i]]), 0) << "triangle " << f;
   }
 }
 

@@ -34,26 +34,34 @@ std::string triangleBuffer() {
 }
 
 Json triangle(const std::string& buffer = triangleBuffer()) {
-  return {{"asset", {{"version", "2.0"}}},
-          {"buffers", {{{"byteLength", buffer.size()}, {"uri", "data:application/octet-stream;base64," + encodeBase64(buffer)}}}},
-          {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 4}}}},
-          {"accessors",
-           {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
-            {{"bufferView", 1}, {"componentType", 5121}, {"count", 3}, {"type", "SCALAR"}}}},
-          {"meshes", {{{"name", "tri"}, {"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
-          {"nodes", {{{"mesh", 0}}}},
-          {"scenes", {{{"nodes", {0}}}}},
-          {"scene", 0}};
+  return {
+      {"asset", {{"version", "2.0"}}},
+      {"buffers",
+       {{{"byteLength", buffer.size()},
+         {"uri", "data:application/octet-stream;base64," + encodeBase64(buffer)}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}},
+        {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 4}}}},
+      {"accessors",
+       {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+        {{"bufferView", 1}, {"componentType", 5121}, {"count", 3}, {"type", "SCALAR"}}}},
+      {"meshes", {{{"name", "tri"}, {"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+      {"nodes", {{{"mesh", 0}}}},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"scene", 0}};
 }
 
-PolygonSoup read(const Json& json) { return test::parsed(parseGltf, json.dump()); }
+PolygonSoup read(const Json& json) {
+  return test::parsed(parseGltf, json.dump());
+}
 
 std::string glb(const Json& json, std::string binary) {
   std::string text = json.dump();
   while (text.size() % 4) text += ' ';
   while (binary.size() % 4) binary += '\0';
-  return "glTF" + raw<std::uint32_t>(2) + raw(std::uint32_t(28 + text.size() + binary.size())) + raw(std::uint32_t(text.size())) +
-         "JSON" + text + raw(std::uint32_t(binary.size())) + std::string("BIN\0", 4) + binary;
+  return "glTF" + raw<std::uint32_t>(2) + raw(std::uint32_t(28 + text.size() + binary.size())) +
+         raw(std::uint32_t(text.size())) + "JSON" + text + raw(std::uint32_t(binary.size())) +
+         std::string("BIN\0", 4) + binary;
 }
 
 TEST(GltfReader, ReadsATriangle) {
@@ -122,7 +130,8 @@ TEST(GltfReader, TextureCoordinatesAreTurnedUpAndNormalised) {
   std::string buffer = triangleBuffer() + rawAll<std::uint16_t>({0, 0, 65535, 0, 0, 65535});
   Json json = triangle(buffer);
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 40}, {"byteLength", 12}});
-  json["accessors"].push_back({{"bufferView", 2}, {"componentType", 5123}, {"normalized", true}, {"count", 3}, {"type", "VEC2"}});
+  json["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5123}, {"normalized", true}, {"count", 3}, {"type", "VEC2"}});
   json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
   EXPECT_THAT(read(json).uv, ElementsAre(Vec2(0, 1), Vec2(1, 1), Vec2(0, 0)));
 }
@@ -169,7 +178,8 @@ TEST(GltfReader, SmallFilesMustNotUnfoldIntoGiants) {
   json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 12000}}};
   json["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 1000}, {"type", "VEC3"}}};
   json["meshes"][0]["primitives"] = Json::array();
-  for (int i = 0; i < 200; ++i) json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
+  for (int i = 0; i < 200; ++i)
+    json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
   json["nodes"] = Json::array();
   json["scenes"][0]["nodes"] = Json::array();
   for (int i = 0; i < 400; ++i) {
@@ -184,7 +194,9 @@ TEST(GltfReader, SparseAccessorsReplaceElements) {
   Json json = triangle(buffer);
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 40}, {"byteLength", 2}});
   json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 44}, {"byteLength", 12}});
-  Json sparse{{"count", 1}, {"indices", {{"bufferView", 2}, {"componentType", 5123}}}, {"values", {{"bufferView", 3}}}};
+  Json sparse{{"count", 1},
+              {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
+              {"values", {{"bufferView", 3}}}};
   json["accessors"][0]["sparse"] = sparse;
   EXPECT_EQ(read(json).positions[1], DVec3(7, 8, 9));
   json["accessors"][0].erase("bufferView");
@@ -197,7 +209,8 @@ TEST(GltfReader, SparseAccessorsReplaceElements) {
 
 TEST(GltfReader, MaterialsHaveTheirBaseColour) {
   Json json = triangle();
-  json["materials"] = {{{"name", "red"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 1}}}}}, {{"name", "plain"}}};
+  json["materials"] = {{{"name", "red"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, 1}}}}},
+                       {{"name", "plain"}}};
   json["meshes"][0]["primitives"][0]["material"] = 0;
   const PolygonSoup soup = read(json);
   EXPECT_EQ(soup.materials[0].baseColor, Rgb(1, 0.5f, 0));
@@ -221,20 +234,29 @@ std::string refusedWith(const std::function<void(Json&)>& change) {
 }
 
 TEST(GltfReader, EveryReferenceIsChecked) {
-  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["byteLength"] = 41; }), HasSubstr("beyond its buffer"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["byteOffset"] = 18446744073709551615u; }), HasSubstr("beyond its buffer"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["buffer"] = 3; }), HasSubstr("buffer that does not exist"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["byteLength"] = 41; }),
+              HasSubstr("beyond its buffer"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["byteOffset"] = 18446744073709551615u; }),
+              HasSubstr("beyond its buffer"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["bufferViews"][0]["buffer"] = 3; }),
+              HasSubstr("buffer that does not exist"));
   EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["count"] = 4; }), HasSubstr("beyond buffer view"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["count"] = 9007199254740993; }), HasSubstr("impossible count"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["byteOffset"] = 18446744073709551610u; }), HasSubstr("beyond buffer view"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["count"] = 9007199254740993; }),
+              HasSubstr("impossible count"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["byteOffset"] = 18446744073709551610u; }),
+              HasSubstr("beyond buffer view"));
   EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0]["type"] = "VEC2"; }), HasSubstr("wrong type"));
   EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][0].erase("bufferView"); }), HasSubstr("no data"));
   EXPECT_THAT(refusedWith([](Json& j) { j["accessors"][1]["bufferView"] = 9; }), HasSubstr("bufferView"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 5; }), HasSubstr("accessor that does not exist"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["buffers"][0]["byteLength"] = 4000000000u; }), HasSubstr("holds 40 of 4000000000"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 5; }),
+              HasSubstr("accessor that does not exist"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["buffers"][0]["byteLength"] = 4000000000u; }),
+              HasSubstr("holds 40 of 4000000000"));
   EXPECT_THAT(refusedWith([](Json& j) { j["buffers"][0]["byteLength"] = -1; }), HasSubstr("no length"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["buffers"][0]["uri"] = "data:text/plain,hello"; }), HasSubstr("not base64"));
-  EXPECT_THAT(refusedWith([](Json& j) { j["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }), HasSubstr("KHR_draco_mesh_compression"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["buffers"][0]["uri"] = "data:text/plain,hello"; }),
+              HasSubstr("not base64"));
+  EXPECT_THAT(refusedWith([](Json& j) { j["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }),
+              HasSubstr("KHR_draco_mesh_compression"));
   EXPECT_THAT(refusedWith([](Json& j) { j["asset"].erase("version"); }), HasSubstr("asset"));
 }
 

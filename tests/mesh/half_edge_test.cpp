@@ -61,7 +61,8 @@ TEST(HalfEdge, NeighboursAreMutual) {
       ASSERT_NE(other, HalfEdgeMesh::kNoNeighbour);
       bool back = false;
       for (int k = 0; k < 3; ++k)
-        back = back || (surface.neighbour(other, k) == f && surface.vertexOf(other, k) == surface.vertexOf(f, (side + 1) % 3));
+        back = back || (surface.neighbour(other, k) == f &&
+                        surface.vertexOf(other, k) == surface.vertexOf(f, (side + 1) % 3));
       EXPECT_TRUE(back);
     }
 }
@@ -97,7 +98,8 @@ TEST(HalfEdge, TakesSurfacesThatAreNoManifolds) {
   std::uniform_real_distribution<float> anywhere(-1, 1);
   for (int round = 0; round < 50; ++round) {
     TriMesh mesh;
-    for (int i = 0; i < 10; ++i) mesh.positions.push_back({anywhere(random), anywhere(random), anywhere(random)});
+    for (int i = 0; i < 10; ++i)
+      mesh.positions.push_back({anywhere(random), anywhere(random), anywhere(random)});
     while (mesh.triangles.size() < 60) {
       const UVec3 t(random() % 10, random() % 10, random() % 10);
       if (t.x != t.y && t.y != t.z && t.z != t.x) mesh.triangles.push_back(t);

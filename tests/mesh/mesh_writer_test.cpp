@@ -36,7 +36,8 @@ std::map<std::array<float, 6>, std::array<float, 5>> cornersOf(const TriMesh& me
 /// The same sides, normals and texture coordinates; those may differ in their last bits.
 bool same(const TriMesh& a, const TriMesh& b, bool normals, bool uvs) {
   const auto one = cornersOf(a, normals, uvs), two = cornersOf(b, normals, uvs);
-  return one.size() == two.size() && std::equal(one.begin(), one.end(), two.begin(), [](const auto& x, const auto& y) {
+  return one.size() == two.size() &&
+         std::equal(one.begin(), one.end(), two.begin(), [](const auto& x, const auto& y) {
            bool close = x.first == y.first;
            for (std::size_t i = 0; i < 5; ++i) close = close && std::abs(x.second[i] - y.second[i]) < 2e-7f;
            return close;
@@ -101,14 +102,16 @@ TEST(MeshWriter, ColoursAreSrgbWhereProgramsExpectIt) {
   EXPECT_THAT(written("a.obj", oneTriangle(), {.colors = colors}), HasSubstr("v 0 1 0.1 1 0 1\n"));
   const std::string ply = written("a.ply", oneTriangle(), {.colors = colors});
   const std::size_t body = ply.find("end_header\n") + 11;
-  EXPECT_EQ(std::uint8_t(ply[body + 27 + 24]), 188) << "second vertex, red: position and normal take 24 bytes";
+  EXPECT_EQ(std::uint8_t(ply[body + 27 + 24]), 188)
+      << "second vertex, red: position and normal take 24 bytes";
   EXPECT_EQ(std::uint8_t(ply[body + 54 + 24]), 255);
   EXPECT_EQ(std::uint8_t(ply[body + 54 + 25]), 0);
 }
 
 TEST(MeshWriter, GltfIsWhatValidatorsWant) {
   const std::vector<Rgb> colors(3, Rgb(0.25f));
-  const nlohmann::json json = nlohmann::json::parse(written("a.gltf", oneTriangle(), {.colors = colors, .name = "thing", .unlit = true}));
+  const nlohmann::json json = nlohmann::json::parse(
+      written("a.gltf", oneTriangle(), {.colors = colors, .name = "thing", .unlit = true}));
   EXPECT_EQ(json["asset"]["version"], "2.0");
   EXPECT_EQ(json["scenes"][0]["nodes"], nlohmann::json({0}));
   EXPECT_EQ(json["nodes"][0]["mesh"], 0);
@@ -116,7 +119,9 @@ TEST(MeshWriter, GltfIsWhatValidatorsWant) {
   EXPECT_EQ(json["extensionsUsed"], nlohmann::json({"KHR_materials_unlit"}));
   EXPECT_TRUE(json["materials"][0]["extensions"].contains("KHR_materials_unlit"));
   const nlohmann::json& primitive = json["meshes"][0]["primitives"][0];
-  const auto accessor = [&](const nlohmann::json& index) { return json["accessors"][index.get<std::size_t>()]; };
+  const auto accessor = [&](const nlohmann::json& index) {
+    return json["accessors"][index.get<std::size_t>()];
+  };
   EXPECT_EQ(accessor(primitive["attributes"]["POSITION"])["max"], nlohmann::json({1.0, 1.0, 0.1f}));
   EXPECT_EQ(accessor(primitive["attributes"]["COLOR_0"])["type"], "VEC3");
   EXPECT_EQ(accessor(primitive["indices"])["count"], 3);

@@ -14,7 +14,8 @@ float sphereError(int subdivisions) {
   const TriMesh sphere = makeIcosphere({.radius = 3, .subdivisions = subdivisions});
   const auto normals = angleWeightedNormals(sphere.positions, sphere.triangles);
   float worst = 0;
-  for (std::size_t v = 0; v < normals.size(); ++v) worst = std::max(worst, distance(normals[v], sphere.positions[v] / 3.0f));
+  for (std::size_t v = 0; v < normals.size(); ++v)
+    worst = std::max(worst, distance(normals[v], sphere.positions[v] / 3.0f));
   return worst;
 }
 
@@ -27,7 +28,8 @@ TEST(Normals, OfASphereConvergeToItsPositions) {
 TEST(Normals, DoNotDependOnHowFlatPartsAreCut) {
   // The corner of a cube: two sides of one triangle, one side of two.
   const std::vector<Vec3> p{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}};
-  const std::vector<UVec3> one{{0, 3, 1}, {0, 1, 4}, {0, 4, 3}}, two{{0, 3, 2}, {0, 2, 1}, {0, 1, 4}, {0, 4, 3}};
+  const std::vector<UVec3> one{{0, 3, 1}, {0, 1, 4}, {0, 4, 3}},
+      two{{0, 3, 2}, {0, 2, 1}, {0, 1, 4}, {0, 4, 3}};
   const Vec3 expected = -normalize(Vec3(1));
   EXPECT_LT(distance(angleWeightedNormals(p, one)[0], expected), 1e-6f);
   EXPECT_LT(distance(angleWeightedNormals(p, two)[0], expected), 1e-6f);
@@ -69,7 +71,8 @@ TEST(Normals, ACreaseMayEnd) {
   // A roof that flattens out: the ridge breaks where it is steep, and the far end stays whole.
   TriMesh mesh;
   for (int i = 0; i < 3; ++i)
-    for (int side = -1; side <= 1; ++side) mesh.positions.push_back(Vec3(i, side == 0 ? (2 - i) * 0.5f : 0, -side));
+    for (int side = -1; side <= 1; ++side)
+      mesh.positions.push_back(Vec3(i, side == 0 ? (2 - i) * 0.5f : 0, -side));
   for (std::uint32_t i = 0; i < 2; ++i)
     for (std::uint32_t side = 0; side < 2; ++side) {
       const std::uint32_t a = 3 * i + side, b = a + 3;
@@ -80,7 +83,8 @@ TEST(Normals, ACreaseMayEnd) {
   const auto atVertex = [&](std::uint32_t v) {
     std::set<std::array<float, 3>> different;
     for (std::size_t c = 0; c < normals.normals.size(); ++c)
-      if (mesh.triangles[c / 3][int(c % 3)] == v) different.insert({normals.normals[c].x, normals.normals[c].y, normals.normals[c].z});
+      if (mesh.triangles[c / 3][int(c % 3)] == v)
+        different.insert({normals.normals[c].x, normals.normals[c].y, normals.normals[c].z});
     return different.size();
   };
   EXPECT_EQ(atVertex(1), 2u) << "steep end of the ridge";
@@ -93,7 +97,8 @@ TEST(Normals, SaneFileNormalsAreKeptAndNormalised) {
   for (std::size_t c = 0; c < 36; ++c) file.push_back(2.0f * normalize(cube.areaNormal(c / 3)));
   const CornerNormals kept = corners(cube, file, 180);
   EXPECT_EQ(kept.kept, 36u);
-  for (std::size_t c = 0; c < 36; ++c) EXPECT_LT(distance(kept.normals[c], normalize(cube.areaNormal(c / 3))), 1e-6f);
+  for (std::size_t c = 0; c < 36; ++c)
+    EXPECT_LT(distance(kept.normals[c], normalize(cube.areaNormal(c / 3))), 1e-6f);
 }
 
 TEST(Normals, OthersAreComputed) {

@@ -13,8 +13,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-PolygonSoup obj(std::string_view text) { return test::parsed(parseObj, text); }
-std::string refused(std::string_view text) { return test::refusal(parseObj, text); }
+PolygonSoup obj(std::string_view text) {
+  return test::parsed(parseObj, text);
+}
+std::string refused(std::string_view text) {
+  return test::refusal(parseObj, text);
+}
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -51,7 +55,8 @@ TEST(ObjReader, LeavesOutWhatIsAbsent) {
 
 TEST(ObjReader, IndicesCountFromTheEndWhenNegative) {
   EXPECT_THAT(obj(kTriangle + "f -3 -2 -1\n").cornerVertex, ElementsAre(0, 1, 2));
-  EXPECT_THAT(obj(kTriangle + "f -3 -2 -1\nv 9 9 9\nf -3 -2 -1\n").cornerVertex, ElementsAre(0, 1, 2, 1, 2, 3));
+  EXPECT_THAT(obj(kTriangle + "f -3 -2 -1\nv 9 9 9\nf -3 -2 -1\n").cornerVertex,
+              ElementsAre(0, 1, 2, 1, 2, 3));
 }
 
 TEST(ObjReader, MayNameVerticesThatComeLater) {
@@ -59,7 +64,8 @@ TEST(ObjReader, MayNameVerticesThatComeLater) {
 }
 
 TEST(ObjReader, KeepsIndicesThatNameNothing) {
-  const PolygonSoup soup = obj(kTriangle + "f 0 1 2\nf -9 1 2\nf 4294967297 1 2\nf 99999999999999999999 1 2\nf 7 1 2\n");
+  const PolygonSoup soup =
+      obj(kTriangle + "f 0 1 2\nf -9 1 2\nf 4294967297 1 2\nf 99999999999999999999 1 2\nf 7 1 2\n");
   ASSERT_EQ(soup.faceCount(), 5u);
   for (std::size_t f = 0; f < 5; ++f) EXPECT_GE(soup.face(f)[0], soup.positions.size()) << f;
 }
@@ -71,7 +77,8 @@ TEST(ObjReader, ReadsPolygonsAndMixedCorners) {
 }
 
 TEST(ObjReader, JoinsContinuedLines) {
-  EXPECT_THAT(obj("v 0 0 \\\n 0\nv 1 0 0\r\nv 0 1 0\r\nf 1 \\\r\n2 \\\n3\n").cornerVertex, ElementsAre(0, 1, 2));
+  EXPECT_THAT(obj("v 0 0 \\\n 0\nv 1 0 0\r\nv 0 1 0\r\nf 1 \\\r\n2 \\\n3\n").cornerVertex,
+              ElementsAre(0, 1, 2));
   EXPECT_THAT(obj(kTriangle + "f 1 2 3 \\").cornerVertex, testing::Contains(2u));
 }
 
@@ -94,12 +101,14 @@ std::string utf16(const std::string& text, bool bigEndian, bool mark) {
 TEST(ObjReader, ReadsUtf16AndMarks) {
   const std::string text = kTriangle + "f 1 2 3\n";
   for (bool big : {false, true})
-    for (bool mark : {false, true}) EXPECT_THAT(obj(utf16(text, big, mark)).cornerVertex, ElementsAre(0, 1, 2));
+    for (bool mark : {false, true})
+      EXPECT_THAT(obj(utf16(text, big, mark)).cornerVertex, ElementsAre(0, 1, 2));
   EXPECT_THAT(obj("\xef\xbb\xbf" + text).cornerVertex, ElementsAre(0, 1, 2));
 }
 
 TEST(ObjReader, GroupsAndMaterialsAreNamed) {
-  const PolygonSoup soup = obj(kTriangle + "o thing\nusemtl  red \nf 1 2 3\ng a b\nusemtl blue\nf 1 2 3\nusemtl red\nf 1 2 3\n");
+  const PolygonSoup soup =
+      obj(kTriangle + "o thing\nusemtl  red \nf 1 2 3\ng a b\nusemtl blue\nf 1 2 3\nusemtl red\nf 1 2 3\n");
   ASSERT_EQ(soup.materials.size(), 2u);
   EXPECT_EQ(soup.materials[0].name, "red");
   EXPECT_FALSE(soup.materials[0].hasColor);
@@ -114,8 +123,8 @@ TEST(ObjReader, TakesColoursFromALibraryInItsFolderOnly) {
   std::ofstream(folder / "model/good.mtl") << "newmtl red\nKd 0.5 0.25 0\nmap_Kd -s 1 1 1 x.png\n";
   std::ofstream(folder / "secret.mtl") << "newmtl red\nKd 1 1 1\n";
   const auto color = [&](const std::string& library) {
-    const PolygonSoup soup =
-        test::parsed(parseObj, "mtllib " + library + "\n" + kTriangle + "usemtl red\nf 1 2 3\n", folder / "model");
+    const PolygonSoup soup = test::parsed(
+        parseObj, "mtllib " + library + "\n" + kTriangle + "usemtl red\nf 1 2 3\n", folder / "model");
     return soup.materials.at(0).hasColor ? soup.materials[0].baseColor : Rgb(-1);
   };
   EXPECT_EQ(color("good.mtl"), Rgb(0.5f, 0.25f, 0));

@@ -8,8 +8,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-PolygonSoup off(std::string_view text) { return test::parsed(parseOff, text); }
-std::string refused(std::string_view text) { return test::refusal(parseOff, text); }
+PolygonSoup off(std::string_view text) {
+  return test::parsed(parseOff, text);
+}
+std::string refused(std::string_view text) {
+  return test::refusal(parseOff, text);
+}
 
 const std::string kThree = "0 0 0\n1 0 0\n0 1 0\n";
 
@@ -24,7 +28,8 @@ TEST(OffReader, CountsMayFollowTheKeywordAndLackTheEdges) {
 }
 
 TEST(OffReader, IgnoresColours) {
-  const PolygonSoup soup = off("COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 0.5 0.5 0.5 1\n3 0 1 2 255 0 0\n");
+  const PolygonSoup soup =
+      off("COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0 0.5 0.5 0.5 1\n3 0 1 2 255 0 0\n");
   EXPECT_EQ(soup.positions[2], DVec3(0, 1, 0));
   EXPECT_THAT(soup.cornerVertex, ElementsAre(0, 1, 2));
   EXPECT_EQ(off("OFF\n3 1 0\n0 0 0 9 9 9\n1 0 0\n0 1 0\n3 0 1 2\n").positions[1], DVec3(1, 0, 0));

@@ -13,13 +13,15 @@ namespace prt::test {
 
 using MeshParser = PolygonSoup (*)(std::string_view, const MeshSource&, Job&);
 
-inline PolygonSoup parsed(MeshParser parser, std::string_view bytes, const std::filesystem::path& folder = {}) {
+inline PolygonSoup parsed(MeshParser parser, std::string_view bytes,
+                          const std::filesystem::path& folder = {}) {
   Job job;
   return parser(bytes, {"test file", folder}, job);
 }
 
 /// The message of the FileError that parsing ends in; empty, with a failure, when there is none.
-inline std::string refusal(MeshParser parser, std::string_view bytes, const std::filesystem::path& folder = {}) {
+inline std::string refusal(MeshParser parser, std::string_view bytes,
+                           const std::filesystem::path& folder = {}) {
   try {
     parsed(parser, bytes, folder);
   } catch (const Error& error) {

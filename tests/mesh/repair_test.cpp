@@ -58,7 +58,8 @@ PolygonSoup withoutNormals(const TriMesh& mesh) {
 }
 
 void reverseFace(PolygonSoup& soup, std::size_t f) {
-  std::reverse(soup.cornerVertex.begin() + soup.faceStart[f], soup.cornerVertex.begin() + soup.faceStart[f + 1]);
+  std::reverse(soup.cornerVertex.begin() + soup.faceStart[f],
+               soup.cornerVertex.begin() + soup.faceStart[f + 1]);
 }
 
 TEST(Repair, LeavesCleanMeshesAlone) {
@@ -68,7 +69,8 @@ TEST(Repair, LeavesCleanMeshesAlone) {
     EXPECT_EQ(result.mesh.positions, mesh.positions) << name;
     EXPECT_EQ(result.mesh.triangles, mesh.triangles) << name;
     EXPECT_EQ(result.mesh.uvTriangles.size(), mesh.uvTriangles.size()) << name;
-    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) ASSERT_LT(distance(result.mesh.normals[v], mesh.normals[v]), 1e-6f);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v)
+      ASSERT_LT(distance(result.mesh.normals[v], mesh.normals[v]), 1e-6f);
     EXPECT_FALSE(result.report.changedAnything()) << name << ": " << toText(result.report);
     EXPECT_EQ(toText(result.report), "nothing to repair");
   }
@@ -108,7 +110,8 @@ TEST(Repair, TurnsInsideOutSolids) {
   PolygonSoup soup = withoutNormals(torus);
   for (std::size_t f = 0; f < soup.faceCount(); ++f) reverseFace(soup, f);
   EXPECT_GT(volumeOf(repaired(soup).mesh), 0);
-  EXPECT_LT(volumeOf(repaired(soup, {.orientation = Orientation::consistent}).mesh), 0) << "as most of it was";
+  EXPECT_LT(volumeOf(repaired(soup, {.orientation = Orientation::consistent}).mesh), 0)
+      << "as most of it was";
   EXPECT_LT(volumeOf(repaired(soup, {.orientation = Orientation::keep}).mesh), 0);
 }
 
@@ -116,13 +119,15 @@ TEST(Repair, TurnsNormalsWithTheirFaces) {
   PolygonSoup soup = toSoup(makeTorus());
   for (std::size_t f = 0; f < soup.faceCount(); ++f) {
     reverseFace(soup, f);
-    std::reverse(soup.cornerNormal.begin() + soup.faceStart[f], soup.cornerNormal.begin() + soup.faceStart[f + 1]);
+    std::reverse(soup.cornerNormal.begin() + soup.faceStart[f],
+                 soup.cornerNormal.begin() + soup.faceStart[f + 1]);
   }
   for (Vec3& n : soup.normals) n = -n;  // wholly inside out, normals too
   const RepairedMesh result = repaired(soup);
   EXPECT_EQ(result.report.keptNormals, 3 * result.mesh.triangleCount());
   for (std::size_t f = 0; f < result.mesh.triangleCount(); ++f)
-    for (int i = 0; i < 3; ++i) ASSERT_GT(dot(result.mesh.areaNormal(f), result.mesh.normals[result.mesh.triangles[f][i]]), 0);
+    for (int i = 0; i < 3; ++i)
+      ASSERT_GT(dot(result.mesh.areaNormal(f), result.mesh.normals[result.mesh.triangles[f][i]]), 0);
 }
 
 TEST(Repair, NormalsTellTheFrontOfOpenSurfaces) {
@@ -137,7 +142,8 @@ TEST(Repair, NormalsTellTheFrontOfOpenSurfaces) {
 }
 
 TEST(Repair, KeepsTheWallsOfCavities) {
-  const TriMesh outer = makeIcosphere({.radius = 2, .subdivisions = 3}), inner = makeIcosphere({.radius = 1, .subdivisions = 3});
+  const TriMesh outer = makeIcosphere({.radius = 2, .subdivisions = 3}),
+                inner = makeIcosphere({.radius = 1, .subdivisions = 3});
   TriMesh hollow = outer;
   for (const Vec3& p : inner.positions) hollow.positions.push_back(p);
   for (const UVec3& t : inner.triangles)
@@ -220,14 +226,17 @@ TEST(Repair, CutsPolygonsUp) {
   EXPECT_EQ(result.report.cutPolygons, 1u);
   for (std::size_t f = 0; f < 3; ++f)
     for (int i = 0; i < 3; ++i)
-      EXPECT_EQ(result.mesh.uv[result.mesh.uvTriangles[f][i]], 0.5f * Vec2(result.mesh.positions[result.mesh.triangles[f][i]]));
+      EXPECT_EQ(result.mesh.uv[result.mesh.uvTriangles[f][i]],
+                0.5f * Vec2(result.mesh.positions[result.mesh.triangles[f][i]]));
 }
 
 TEST(Repair, SplitsWhatIsNoManifold) {
   // Two tetrahedra that share an edge, and a third that touches them in a vertex.
   PolygonSoup soup;
-  soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}, {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
-  for (const std::array<std::uint32_t, 4>& t : {std::array<std::uint32_t, 4>{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 8, 7}}) {
+  soup.positions = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {0, -1, 0},
+                    {0, 0, -1}, {-1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
+  for (const std::array<std::uint32_t, 4>& t :
+       {std::array<std::uint32_t, 4>{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 6, 8, 7}}) {
     const auto [a, b, c, d] = t;
     for (std::uint32_t v : {a, c, b, a, b, d, b, c, d, c, a, d}) soup.cornerVertex.push_back(v);
     for (int i = 0; i < 4; ++i) soup.faceStart.push_back(soup.faceStart.back() + 3);
@@ -261,7 +270,8 @@ TEST(Repair, CreasesDoubleVertices) {
   EXPECT_EQ(sharp.report.creaseVertices, 16u);
   EXPECT_TRUE(sharp.report.after.clean());
   for (std::size_t f = 0; f < 12; ++f)
-    EXPECT_LT(distance(sharp.mesh.normals[sharp.mesh.triangles[f].x], normalize(sharp.mesh.areaNormal(f))), 1e-6f);
+    EXPECT_LT(distance(sharp.mesh.normals[sharp.mesh.triangles[f].x], normalize(sharp.mesh.areaNormal(f))),
+              1e-6f);
 }
 
 TEST(Repair, BadNormalsAreComputedAgain) {
@@ -271,7 +281,8 @@ TEST(Repair, BadNormalsAreComputedAgain) {
   soup.normals[6] = -soup.normals[6];
   const RepairedMesh result = repaired(soup);
   EXPECT_GT(result.report.computedNormals, 8u);
-  for (std::size_t v = 0; v < sphere.vertexCount(); ++v) EXPECT_LT(distance(result.mesh.normals[v], sphere.normals[v]), 0.05f);
+  for (std::size_t v = 0; v < sphere.vertexCount(); ++v)
+    EXPECT_LT(distance(result.mesh.normals[v], sphere.normals[v]), 0.05f);
   EXPECT_EQ(repaired(soup, {.keepNormals = false}).report.keptNormals, 0u);
 }
 
@@ -303,7 +314,8 @@ TEST(Repair, FarAwayMeshesAreMovedAndKeepTheirShape) {
   const RepairedMesh result = repaired(soup);
   double worst = 0;
   for (std::size_t v = 0; v < sphere.vertexCount(); ++v)
-    worst = std::max(worst, distance(DVec3(result.mesh.positions[v]) + result.report.offset, soup.positions[v]));
+    worst =
+        std::max(worst, distance(DVec3(result.mesh.positions[v]) + result.report.offset, soup.positions[v]));
   EXPECT_LT(worst, 1e-6);
   EXPECT_LT(length(result.mesh.bounds().center()), 1);
   EXPECT_EQ(repaired(soup, {.recentre = false}).report.offset, DVec3(0));
@@ -358,7 +370,8 @@ TEST(Repair, ManyTrianglesAreNoTrouble) {
 TEST(Repair, HostileShapesAreNoTrouble) {
   PolygonSoup soup;
   const std::uint32_t n = 100000;
-  for (std::uint32_t i = 0; i < n; ++i) soup.positions.push_back({double(i % 317), double(i / 317), double((i * 7919) % 1009)});
+  for (std::uint32_t i = 0; i < n; ++i)
+    soup.positions.push_back({double(i % 317), double(i / 317), double((i * 7919) % 1009)});
   for (std::uint32_t i = 2; i < n; ++i) {  // all triangles on one edge, in both directions, each thrice
     for (std::uint32_t v : {0u, 1u, i, 1u, 0u, i, 0u, 1u, i}) soup.cornerVertex.push_back(v);
     for (int k = 0; k < 3; ++k) soup.faceStart.push_back(soup.faceStart.back() + 3);

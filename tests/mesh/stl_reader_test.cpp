@@ -9,14 +9,19 @@ using test::raw;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-PolygonSoup stl(std::string_view bytes) { return test::parsed(parseStl, bytes); }
-std::string refused(std::string_view bytes) { return test::refusal(parseStl, bytes); }
+PolygonSoup stl(std::string_view bytes) {
+  return test::parsed(parseStl, bytes);
+}
+std::string refused(std::string_view bytes) {
+  return test::refusal(parseStl, bytes);
+}
 
 std::string binaryStl(std::string start, std::uint32_t promised, std::uint32_t held) {
   start.resize(80, ' ');
   std::string bytes = start + raw(promised);
   for (std::uint32_t f = 0; f < held; ++f) {
-    for (float x : {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, float(f), 1.0f, 0.0f, float(f), 0.0f, 1.0f, float(f)}) bytes += raw(x);
+    for (float x : {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, float(f), 1.0f, 0.0f, float(f), 0.0f, 1.0f, float(f)})
+      bytes += raw(x);
     bytes += raw<std::uint16_t>(0);
   }
   return bytes;
@@ -32,10 +37,13 @@ TEST(StlReader, ReadsBinary) {
   EXPECT_TRUE(soup.cornerNormal.empty()) << "facet normals would make every edge a crease";
 }
 
-TEST(StlReader, BinaryMayBeginWithSolid) { EXPECT_EQ(stl(binaryStl("solid but binary", 3, 3)).faceCount(), 3u); }
+TEST(StlReader, BinaryMayBeginWithSolid) {
+  EXPECT_EQ(stl(binaryStl("solid but binary", 3, 3)).faceCount(), 3u);
+}
 
 TEST(StlReader, ReadsAscii) {
-  const PolygonSoup soup = stl("solid part one\n" + kFacet + kFacet + "endsolid part one\nSOLID\n" + kFacet + "ENDSOLID\n");
+  const PolygonSoup soup =
+      stl("solid part one\n" + kFacet + kFacet + "endsolid part one\nSOLID\n" + kFacet + "ENDSOLID\n");
   EXPECT_EQ(soup.faceCount(), 3u);
   EXPECT_THAT(soup.groups, ElementsAre("part one", ""));
   EXPECT_THAT(soup.faceGroup, ElementsAre(0, 0, 1));

@@ -31,7 +31,9 @@ void expectFrames(const TriMesh& mesh, const TangentFrames& frames) {
 }
 
 /// Turn of v about axis n that brings it to w, all in one plane.
-double turn(const Vec3& v, const Vec3& w, const Vec3& n) { return std::atan2(double(dot(cross(v, w), n)), double(dot(v, w))); }
+double turn(const Vec3& v, const Vec3& w, const Vec3& n) {
+  return std::atan2(double(dot(cross(v, w), n)), double(dot(v, w)));
+}
 
 /// The least rotation from one unit normal to another, applied to v (Rodrigues).
 Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to) {
@@ -43,11 +45,11 @@ Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to) {
 }
 
 struct Continuity {
-  int singular = 0;   ///< triangles around which the field turns
-  int indexSum = 0;   ///< over all triangles
-  double worst = 0;   ///< largest turn along an edge of triangles that are not singular, radians
+  int singular = 0;  ///< triangles around which the field turns
+  int indexSum = 0;  ///< over all triangles
+  double worst = 0;  ///< largest turn along an edge of triangles that are not singular, radians
   double mean = 0;
-  double sharp = 0;   ///< fraction of triangles with an edge along which it turns by more than 60 degrees
+  double sharp = 0;  ///< fraction of triangles with an edge along which it turns by more than 60 degrees
 };
 
 /// Follows a field that has one tangent per vertex around every triangle (discrete Poincare-Hopf).
@@ -56,7 +58,8 @@ Continuity continuityOf(const TriMesh& mesh, const TangentFrames& frames) {
   std::size_t edges = 0;
   for (std::size_t f = 0; f < mesh.triangleCount(); ++f) {
     Vec3 n[3], t[3];
-    for (int i = 0; i < 3; ++i) n[i] = mesh.normals[mesh.triangles[f][i]], t[i] = frames.tangents[3 * f + std::size_t(i)];
+    for (int i = 0; i < 3; ++i)
+      n[i] = mesh.normals[mesh.triangles[f][i]], t[i] = frames.tangents[3 * f + std::size_t(i)];
     double around = 0, largest = 0;
     Vec3 loop = t[0];
     for (int i = 0; i < 3; ++i) {
@@ -113,10 +116,13 @@ TEST(TangentFrames, AreContinuousInsideCharts) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> atCorner;
     for (std::size_t c = 0; c < frames.tangents.size(); ++c) {
       const int i = int(c % 3);
-      const auto [known, isNew] = atCorner.try_emplace({mesh.triangles[c / 3][i], mesh.uvTriangles[c / 3][i]}, frames.tangents[c]);
-      ASSERT_EQ(known->second, frames.tangents[c]) << "corners that share vertex and texture coordinate share the tangent";
+      const auto [known, isNew] =
+          atCorner.try_emplace({mesh.triangles[c / 3][i], mesh.uvTriangles[c / 3][i]}, frames.tangents[c]);
+      ASSERT_EQ(known->second, frames.tangents[c])
+          << "corners that share vertex and texture coordinate share the tangent";
     }
-    EXPECT_LT(continuityOf(mesh, frames).worst, 1.6 * 2 * kPi / 64) << "not much more than one segment's turn at a pole";
+    EXPECT_LT(continuityOf(mesh, frames).worst, 1.6 * 2 * kPi / 64)
+        << "not much more than one segment's turn at a pole";
   }
 }
 
@@ -143,7 +149,8 @@ TEST(TangentFrames, FieldsOnFlatPiecesAreConstant) {
   const TangentFrames frames = framesOf(box);
   for (std::size_t f = 0; f < box.triangleCount(); ++f) {
     const Vec3 n = box.normals[box.triangles[f].x];
-    const Vec3 expected = std::abs(n.y) > 0.5f ? Vec3(1, 0, 0) : cross(Vec3(0, 1, 0), n);  // east, or +X when level
+    const Vec3 expected =
+        std::abs(n.y) > 0.5f ? Vec3(1, 0, 0) : cross(Vec3(0, 1, 0), n);  // east, or +X when level
     for (int i = 0; i < 3; ++i) EXPECT_LT(distance(frames.tangents[3 * f + std::size_t(i)], expected), 1e-5f);
   }
 }
@@ -171,7 +178,8 @@ TEST(TangentFrames, FieldsAreSmoothOnRealShapes) {
 
 TEST(TangentFrames, SmoothingHelps) {
   const TriMesh rock = makeRock();
-  const Continuity rough = continuityOf(rock, framesOf(rock, {.sweeps = 0})), smooth = continuityOf(rock, framesOf(rock));
+  const Continuity rough = continuityOf(rock, framesOf(rock, {.sweeps = 0})),
+                   smooth = continuityOf(rock, framesOf(rock));
   EXPECT_LT(smooth.mean, 0.6 * rough.mean);
   EXPECT_LT(smooth.singular, rough.singular);
 }

@@ -26,14 +26,16 @@ TEST(ParseNumber, ReadsWhatProgramsWrite) {
 }
 
 TEST(ParseNumber, RefusesTheRest) {
-  for (const char* word : {"", "+", "-", ".", "e5", "1e", "1e+", "3.1+e2", "+-1", "--1", "1,5", "0x10", "1 ", "abc", "1#"})
+  for (const char* word :
+       {"", "+", "-", ".", "e5", "1e", "1e+", "3.1+e2", "+-1", "--1", "1,5", "0x10", "1 ", "abc", "1#"})
     EXPECT_FALSE(parseNumber(word)) << word;
 }
 
 TEST(ParseInteger, IsStrict) {
   EXPECT_EQ(parseInteger("-12"), -12);
   EXPECT_EQ(parseInteger("+12"), 12);
-  for (const char* word : {"", "+", "+-1", "1.0", "1e3", "99999999999999999999", "x"}) EXPECT_FALSE(parseInteger(word)) << word;
+  for (const char* word : {"", "+", "+-1", "1.0", "1e3", "99999999999999999999", "x"})
+    EXPECT_FALSE(parseInteger(word)) << word;
 }
 
 TEST(TextScanner, WalksWordsAndLines) {

@@ -17,7 +17,9 @@ Triangles cut(const std::vector<DVec3>& polygon) {
   return triangulatePolygon(polygon, job);
 }
 
-DVec3 areaVector(const DVec3& a, const DVec3& b, const DVec3& c) { return 0.5 * cross(b - a, c - a); }
+DVec3 areaVector(const DVec3& a, const DVec3& b, const DVec3& c) {
+  return 0.5 * cross(b - a, c - a);
+}
 
 DVec3 polygonArea(const std::vector<DVec3>& p) {
   DVec3 sum(0);
@@ -55,9 +57,15 @@ TEST(Triangulate, SmallCases) {
 
 TEST(Triangulate, ConcavePolygonsInEveryPlane) {
   const std::vector<glm::dvec2> arrow{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}};
-  const std::vector<glm::dvec2> comb{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+  const std::vector<glm::dvec2> comb{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1},
+                                     {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
   for (const auto& outline : {arrow, comb})
-    for (const auto& [u, v] : {std::pair{kX, kY}, {kY, kX}, {kY, kZ}, {kZ, kX}, {normalize(kX + kY), kZ}, {normalize(kX - kZ), normalize(kX + kZ + kY)}})
+    for (const auto& [u, v] : {std::pair{kX, kY},
+                               {kY, kX},
+                               {kY, kZ},
+                               {kZ, kX},
+                               {normalize(kX + kY), kZ},
+                               {normalize(kX - kZ), normalize(kX + kZ + kY)}})
       expectTiles(inPlane(outline, u, v));
 }
 
@@ -66,7 +74,8 @@ TEST(Triangulate, CollinearCorners) {
 }
 
 TEST(Triangulate, HolesReachedOverABridge) {
-  expectTiles(inPlane({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}, kX, kY));
+  expectTiles(
+      inPlane({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}, kX, kY));
 }
 
 TEST(Triangulate, StarsOfManyCorners) {
@@ -98,7 +107,8 @@ TEST(Triangulate, NonsenseStillEnds) {
   std::uniform_real_distribution<double> anywhere(-1, 1);
   for (int corners : {4, 5, 9, 50, 5000}) {
     std::vector<DVec3> polygon;
-    for (int i = 0; i < corners; ++i) polygon.push_back({anywhere(random), anywhere(random), anywhere(random)});
+    for (int i = 0; i < corners; ++i)
+      polygon.push_back({anywhere(random), anywhere(random), anywhere(random)});
     EXPECT_EQ(cut(polygon).size(), polygon.size() - 2);
     for (DVec3& p : polygon) p = DVec3(p.x, 0, 0);
     EXPECT_EQ(cut(polygon).size(), polygon.size() - 2) << "all on a line";
