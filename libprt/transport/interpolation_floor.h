@@ -13,8 +13,8 @@
 namespace prt {
 
 struct FloorOptions {
-  std::size_t points = 256;  ///< random surface points that are compared, 16 .. 100 000
-  int maxRays = 1024;        ///< rays at each, if the bake has more: noise is cancelled, not averaged out
+  std::size_t points = 1024;  ///< random surface points that are compared, 16 .. 100 000
+  int maxRays = 256;           ///< rays at each, if the bake has more: noise is cancelled, not averaged out
   std::uint64_t seed = 1;
 };
 

@@ -3,7 +3,6 @@
 #include "libprt/core/error.h"
 
 #include <embree3/rtcore.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -125,12 +124,10 @@ struct RayScene::Impl {
     rtcReleaseGeometry(geometry);
   }
 
-  /// Builds the tree with this thread alone: joining from an arena of one keeps other threads out.
   void commit(Job* job) {
     if (job) rtcSetSceneProgressMonitorFunction(scene, &Impl::goOn, job);
     rtcGetDeviceError(device());  // forget errors of others
-    tbb::task_arena alone(1);
-    alone.execute([&] { rtcJoinCommitScene(scene); });
+    rtcCommitScene(scene);
     const RTCError error = rtcGetDeviceError(device());
     if (job && job->cancelled()) throw Cancelled();
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);

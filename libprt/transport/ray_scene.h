@@ -48,8 +48,8 @@ Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& baryc
 /// (blocked exactly where there is a hit) on one machine, whatever the other rays of the call are.
 class RayScene {
  public:
-  /// Keeps no reference to `scene`. Built by one thread, so that equal scenes give equal trees and with
-  /// them equal choices between triangles at equal distance. Throws GeometryError when a position is
+  /// Keeps no reference to `scene`. Equal scenes give equal answers on one machine, also where a ray meets an
+  /// edge or corner and must choose between triangles at equal distance. Throws GeometryError when a position is
   /// not finite or beyond 1e18, ResourceError when the build fails.
   explicit RayScene(const Scene& scene);
   /// The same, and Cancelled when the job is cancelled meanwhile.

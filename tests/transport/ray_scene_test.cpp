@@ -1,6 +1,7 @@
 #include "libprt/transport/ray_scene.h"
 
 #include "libprt/core/error.h"
+#include "libprt/core/parallel.h"
 #include "libprt/core/sampling.h"
 #include "tests/support/scenes.h"
 
@@ -99,6 +100,27 @@ TEST(RayScene, ARayDoesNotDependOnItsNeighboursInThePacket) {
     EXPECT_EQ(together[i].triangle, apart[i].triangle);
     EXPECT_EQ(together[i].barycentric, apart[i].barycentric);
   }
+}
+
+/// Rays at vertices and at middles of edges meet several triangles at once: the choice must be the same in every
+/// build, or interpolated values, and with them the bits of a bake, would change from run to run.
+TEST(RayScene, EveryBuildChoosesTheSameTriangles) {
+  const Scene scene = sceneOf(rock(120));
+  std::vector<std::uint32_t> first;
+  for (int build = 0; build < 6; ++build) {
+    setThreadCount(build % 2 ? 1 : 5);
+    const RayScene rays(scene);
+    std::vector<std::uint32_t> chosen;
+    for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); t += 3) {
+      const UVec3& c = scene.mesh.triangles[t];
+      const Vec3 n = scene.mesh.normals[c.x];
+      for (const Vec3& p : {scene.mesh.positions[c.x], 0.5f * (scene.mesh.positions[c.x] + scene.mesh.positions[c.y])})
+        chosen.push_back(rays.intersect({p + 0.3f * n, 0, -n}).triangle);
+    }
+    if (build == 0) first = chosen;
+    EXPECT_EQ(chosen, first);
+  }
+  setThreadCount(0);
 }
 
 TEST(RayScene, RefusesAndCountsRaysThatEmbreeWouldDieOf) {
