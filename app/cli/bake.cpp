@@ -31,8 +31,14 @@ std::string parameterHelp() {
 void tell(const Session& session, const BakeSummary& s) {
   for (const BakeSummary::Object& object : s.objects)
     session.say(fmt::format("{}: {} vertices, {} triangles; {}", object.name, object.vertices, object.triangles, object.repair));
-  if (!s.transfer.empty()) session.say("transfer: " + s.transfer);
-  if (!s.floor.empty()) session.say(s.floor);
+  if (s.transfer) {
+    const BakeSummary::TransferFacts& t = *s.transfer;
+    session.say(fmt::format("transfer: {}, {} bands, {} samples, {} rays each, {} bounces; {}, storage error {:.3f} %", t.form, t.bands,
+                            t.samples, t.rays, t.bounces, byteCount(double(t.bytes)), 100 * t.storageError));
+  }
+  if (s.floor)
+    session.say(fmt::format("errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %", 100 * s.floor->interpolation,
+                            100 * s.floor->interpolationError, 100 * s.floor->sampling));
   for (const BakeSummary::StageTime& stage : s.stages)
     if (stage.made) session.say(fmt::format("  {:<10} {:8.2f} s", stage.name, stage.seconds));
   session.say(fmt::format("saved {} ({})", s.file.string(), byteCount(double(s.bytes))));

@@ -71,7 +71,21 @@ std::vector<BakeSummary::Object> describeObjects(const Recipe& recipe, const Mes
   return objects;
 }
 
+BakeSummary::TransferFacts describeTransfer(const Transfer& t) {
+  const std::size_t bytes = t.values.bytes.size() + t.diffuse.bytes.size() + t.surface.bytes.size();
+  return {toString(t.form), t.bands, t.raysPerSample, t.bounces, t.samples, bytes, t.storageError};
+}
+
 }  // namespace
+
+std::string toString(TransferForm form) {
+  switch (form) {
+    case TransferForm::None: return "none";
+    case TransferForm::Diffuse: return "diffuse";
+    case TransferForm::Visibility: return "visibility";
+    default: return "matrix";
+  }
+}
 
 BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, Job& job, PipelineListener* listener) {
   const auto project = openOutput(source, options.output);
@@ -95,6 +109,8 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
     summary.stages = timer.times;
     summary.bytes = project->bytes();
     if (const auto meshes = products.get<MeshProduct>("mesh")) summary.objects = describeObjects(recipe, *meshes);
+    if (const auto transfer = products.get<TransferProduct>("transfer")) summary.transfer = describeTransfer(transfer->transfer);
+    if (const auto floor = products.get<FloorProduct>("floor")) summary.floor = floor->floor;
     return summary;
   } catch (...) {
     if (!project->hasNewWork()) project->discardWork();
@@ -108,7 +124,17 @@ nlohmann::json toJson(const BakeSummary& s) {
     objects.push_back({{"name", o.name}, {"vertices", o.vertices}, {"triangles", o.triangles}, {"repair", o.repair}});
   for (const BakeSummary::StageTime& t : s.stages)
     stageList.push_back({{"name", t.name}, {"key", t.key}, {"made", t.made}, {"seconds", t.seconds}});
-  return {{"file", s.file.string()}, {"bytes", s.bytes}, {"resumed", s.resumed}, {"objects", objects}, {"stages", stageList}};
+  nlohmann::json json{{"file", s.file.string()}, {"bytes", s.bytes}, {"resumed", s.resumed}, {"objects", objects}, {"stages", stageList}};
+  if (s.transfer) {
+    const BakeSummary::TransferFacts& t = *s.transfer;
+    json["transfer"] = {{"form", t.form},       {"bands", t.bands}, {"rays", t.rays},        {"bounces", t.bounces},
+                        {"samples", t.samples}, {"bytes", t.bytes}, {"storage_error", t.storageError}};
+  }
+  if (s.floor)
+    json["floor"] = {{"interpolation", s.floor->interpolation}, {"standard_error", s.floor->interpolationError},
+                     {"monte_carlo", s.floor->sampling},        {"total", s.floor->product},
+                     {"points", s.floor->points}};
+  return json;
 }
 
 }  // namespace prt

@@ -3,10 +3,13 @@
 
 #include "libprt/project/pipeline.h"
 #include "libprt/project/scenes.h"
+#include "libprt/transport/interpolation_floor.h"
+#include "libprt/transport/transfer.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,11 +39,19 @@ struct BakeSummary {
   bool resumed = false;          ///< work of an earlier bake was gone on with
   std::vector<Object> objects;
   std::vector<StageTime> stages;
-  std::string transfer;          ///< form, functions, rays, bounces, size, in words
-  std::string floor;             ///< errors to expect, in words; empty when not asked for
+  struct TransferFacts {
+    std::string form;            ///< "none", "diffuse", "visibility", "matrix"
+    int bands = 0, rays = 0, bounces = 0;
+    std::size_t samples = 0, bytes = 0;
+    double storageError = 0;     ///< relative, of rounding to the storage type
+  };
+  std::optional<TransferFacts> transfer;     ///< when it was made or found
+  std::optional<InterpolationFloor> floor;
 };
 
 nlohmann::json toJson(const BakeSummary& summary);
+/// "none", "diffuse", "visibility" or "matrix".
+std::string toString(TransferForm form);
 
 /// Bakes what is missing and saves. Throws FileError before any work when the output cannot be written;
 /// Cancelled leaves the saved project as it was, and the work beside it for the next time.

@@ -66,6 +66,13 @@ int wholeNumber(const json& meta, const char* name, int low, int high) {
   return found->get<int>();
 }
 
+double number(const json& meta, const char* name) {
+  const auto found = meta.find(name);
+  if (found == meta.end() || !found->is_number() || !(*found >= 0))
+    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project", "bake again");
+  return found->get<double>();
+}
+
 /// Arrays that a form does not have are left out.
 void put(ProductData& data, const std::string& name, const Array& array) {
   if (!array.bytes.empty()) data.arrays[name] = array;
@@ -145,7 +152,6 @@ ProductData DirectProduct::save() const {
   const json meta{{"bands", direct.settings.bands},
                   {"rays", direct.settings.rays},
                   {"gathered", direct.raysPerSample},
-                  {"visibility", direct.settings.visibility},
                   {"seed", direct.settings.seed}};
   ProductData data{meta.dump(), {}};
   put(data, "diffuse", direct.diffuse);
@@ -161,8 +167,8 @@ ProductPtr DirectProduct::load(ProductData data) {
   d.settings.bands = wholeNumber(meta, "bands", 1, 10);
   d.settings.rays = wholeNumber(meta, "rays", 1, kMaxRays);
   d.raysPerSample = wholeNumber(meta, "gathered", 0, kMaxRays);
-  d.settings.visibility = meta.value("visibility", false);
-  d.settings.seed = meta.value("seed", std::uint64_t(0));
+  d.settings.visibility = data.arrays.contains("visibility");
+  d.settings.seed = std::uint64_t(number(meta, "seed"));
   d.diffuse = take(data, "diffuse");
   d.visibility = take(data, "visibility");
   d.buried = take(data, "buried");
@@ -196,12 +202,30 @@ ProductPtr TransferProduct::load(ProductData data) {
   t.raysPerSample = wholeNumber(meta, "gathered", 0, kMaxRays);
   t.raysWanted = wholeNumber(meta, "rays", 0, kMaxRays);
   t.bounces = wholeNumber(meta, "bounces", 0, kMaxBounces);
-  t.storageError = meta.value("storageError", 0.0);
+  t.storageError = number(meta, "storageError");
   t.values = take(data, "values");
   t.diffuse = take(data, "diffuse");
   t.surface = take(data, "surface");
   checkShapes(t);
   return std::make_shared<TransferProduct>(std::move(t));
+}
+
+ProductData FloorProduct::save() const {
+  const json meta{{"interpolation", floor.interpolation}, {"interpolationError", floor.interpolationError},
+                  {"product", floor.product},             {"sampling", floor.sampling},
+                  {"points", floor.points}};
+  return {meta.dump(), {}};
+}
+
+ProductPtr FloorProduct::load(ProductData data) {
+  const json meta = metaOf(data);
+  InterpolationFloor f;
+  f.interpolation = number(meta, "interpolation");
+  f.interpolationError = number(meta, "interpolationError");
+  f.product = number(meta, "product");
+  f.sampling = number(meta, "sampling");
+  f.points = std::size_t(number(meta, "points"));
+  return std::make_shared<FloorProduct>(f);
 }
 
 Scene withMaterials(Scene scene, const Recipe& recipe) {

@@ -5,6 +5,7 @@
 #include "libprt/mesh/tangent_frames.h"
 #include "libprt/project/product.h"
 #include "libprt/project/recipe.h"
+#include "libprt/transport/interpolation_floor.h"
 #include "libprt/transport/ray_scene.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
@@ -71,6 +72,15 @@ struct DirectProduct : Product {
 struct TransferProduct : Product {
   explicit TransferProduct(Transfer t) : transfer(std::move(t)) {}
   Transfer transfer;
+
+  ProductData save() const override;
+  static ProductPtr load(ProductData data);
+};
+
+/// Stage "floor": how exact pictures of this bake can be.
+struct FloorProduct : Product {
+  explicit FloorProduct(const InterpolationFloor& f) : floor(f) {}
+  InterpolationFloor floor;
 
   ProductData save() const override;
   static ProductPtr load(ProductData data);

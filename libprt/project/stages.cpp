@@ -20,6 +20,7 @@ ProductPtr makeFrames(StageRun& run);
 ProductPtr makeRays(StageRun& run);
 ProductPtr makeDirect(StageRun& run);
 ProductPtr makeTransfer(StageRun& run);
+ProductPtr makeFloor(StageRun& run);
 std::string directForm(const Recipe& recipe);
 
 /// The pipeline. A stage reads its inputs and the parts of the recipe that stand in its line, nothing else.
@@ -65,6 +66,12 @@ std::vector<Stage> makeStages() {
        .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold", "transfer.storage"},
        .make = makeTransfer,
        .load = TransferProduct::load},
+      {.name = "floor",
+       .makes = "the error that interpolating between samples leaves, and the noise of the bake",
+       .inputs = {"scene", "samples", "rays", "transfer"},
+       .previews = false,
+       .make = makeFloor,
+       .load = FloorProduct::load},
   };
 }
 
@@ -198,6 +205,14 @@ ProductPtr makeTransfer(StageRun& run) {
   return std::make_shared<TransferProduct>(finishTransfer(scene, *run.input<RaysProduct>("rays")->rays,
                                                           *run.input<SamplesProduct>("samples")->samples,
                                                           run.input<DirectProduct>("direct")->direct, settings, *settings.form, run.job()));
+}
+
+/// Reads through "transfer" everything that it asks the recipe for.
+ProductPtr makeFloor(StageRun& run) {
+  const auto scene = std::make_shared<const Scene>(withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe()));
+  return std::make_shared<FloorProduct>(measureInterpolationFloor(
+      scene, run.input<RaysProduct>("rays")->rays, *run.input<SamplesProduct>("samples")->samples,
+      run.input<TransferProduct>("transfer")->transfer, settingsOf(run.recipe()), {}, run.job()));
 }
 
 }  // namespace

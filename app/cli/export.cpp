@@ -1,0 +1,58 @@
+// prt export: a baked project as plain files.
+
+#include "app/cli/session.h"
+#include "libprt/core/log.h"
+#include "libprt/project/export.h"
+#include "libprt/project/lights.h"
+#include "libprt/project/project_file.h"
+
+#include <fmt/format.h>
+
+namespace prt::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string project, npy, exr, gltf;
+  double exposure = 0;
+};
+
+void exportProject(Session& session, const Options& options) {
+  if (options.npy.empty() && options.exr.empty() && options.gltf.empty())
+    throw UsageError("nothing to write is named", "", "add --npy DIR, --exr DIR or --gltf DIR");
+  const auto project = ProjectFile::open(options.project);
+  const fs::path file = options.project, folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  Pipeline pipeline(project.get(), {folder});
+  EnvironmentCache environments;
+  const Recipe& recipe = project->recipe();
+  const BakedScene baked = bakedScene(pipeline, recipe, options.project);
+  const auto frames = pipeline.run(recipe, {"frames"}, session.job()).get<FramesProduct>("frames");
+  const ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
+  if (!input.baked.final()) logWarning(fmt::format("transfer is a preview, {} of {}", input.baked.level, input.baked.levels));
+  nlohmann::json written;
+  const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
+    session.say(fmt::format("wrote {} files to {}", files.size(), where));
+    written[kind] = {{"folder", where}, {"files", files}};
+  };
+  if (!options.npy.empty()) note("npy", options.npy, exportNpy(input, options.npy, session.job()));
+  if (!options.exr.empty()) note("exr", options.exr, exportExr(input, options.exr, session.job()));
+  if (!options.gltf.empty()) note("gltf", options.gltf, exportGltf(input, options.gltf, options.exposure, session.job()));
+  session.result(written);
+}
+
+}  // namespace
+
+void addExport(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("export", "Write plain files with a manifest.json: numpy arrays, EXR, glTF");
+  command->add_option("PROJECT", options->project, "Baked project (.prt)")->required();
+  command->add_option("--npy", options->npy, "Folder for .npy arrays: geometry, transfer, light");
+  command->add_option("--exr", options->exr, "Folder for .exr pictures: the light, and a picture of each camera");
+  command->add_option("--gltf", options->gltf, "Folder for a .glb with the current light baked into vertex colours");
+  command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  command->footer("Example:\n  prt export bunny.prt --npy arrays && python3 -c \"import numpy; print(numpy.load('arrays/transfer_diffuse.npy').shape)\"");
+  command->callback([options, &action] { action = [options](Session& s) { exportProject(s, *options); }; });
+}
+
+}  // namespace prt::cli

@@ -1,0 +1,36 @@
+#include "app/cli/picture_gl.h"
+
+#include "libprt/gl/headless_context.h"
+#include "libprt/gl/scene_renderer.h"
+#include "libprt/project/lights.h"
+#include "libprt/shade/surface_light.h"
+
+namespace prt::cli {
+
+Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
+                const PictureOptions& options) {
+  const gl::HeadlessContext context;
+  gl::SceneRenderer renderer;
+  Scene scene = withMaterials(*baked.geometry->scene, recipe);
+  if (shadeMethod(recipe.method.name) == ShadeMethod::Diffuse)
+    for (Material& material : scene.materials) material.model = MaterialModel::Lambert;
+  renderer.setScene(scene, baked.samples->samples->back);
+  const Transfer& transfer = baked.transfer->transfer;
+  const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
+  renderer.setLight(surfaceLight(transfer, light, *baked.samples->samples));
+  gl::Picture picture;
+  picture.camera = camera;
+  picture.width = options.width;
+  picture.height = options.height;
+  picture.samples = options.grid * options.grid;
+  picture.background = gl::Background::Black;
+  if (options.background && lights.environment) {
+    renderer.setEnvironment(*lights.environment);
+    picture.background = gl::Background::Environment;
+    picture.environmentRotation = lights.rotation;
+    picture.environmentIntensity = lights.intensity;
+  }
+  return renderer.render(picture);
+}
+
+}  // namespace prt::cli

@@ -1,0 +1,12 @@
+#pragma once
+// The same picture drawn by OpenGL, without a window.
+
+#include "libprt/project/relight.h"
+
+namespace prt::cli {
+
+/// Throws ResourceError when the machine has no OpenGL 4.5.
+Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
+                const PictureOptions& options);
+
+}  // namespace prt::cli

@@ -1,0 +1,45 @@
+#pragma once
+// Baked projects as plain files for other programs: numpy arrays, EXR pictures, glTF.
+// Each folder gets a manifest.json that names and describes every file in it; it is written last. Files
+// are replaced one by one, each in one step.
+
+#include "libprt/light/light_rig.h"
+#include "libprt/project/relight.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// What there is to export.
+struct ExportInput {
+  const Recipe& recipe;
+  BakedScene baked;
+  std::shared_ptr<const FramesProduct> frames;
+  LightRig lights;  ///< the light that pictures and vertex colours show
+};
+
+/// Files that were written, relative to the folder.
+using ExportedFiles = std::vector<std::string>;
+
+/// .npy files, little-endian, C order, float32 (indices int32); V vertices of the scene, F faces, k = bands^2:
+///   positions, normals, tangents [V,3]; faces [F,3]; uv [V',2], uv_faces [F,3] where meshes have them
+///   transfer [V,k,k] or [V,k,k,3]: row = transferred, column = light, object frame; every form but Diffuse
+///   transfer_diffuse [V,k] or [V,k,3]: exit radiance of a white Lambert surface per light coefficient
+///   albedo [V,3]; object [V] int32
+///   light [k,3]: coefficients of the current lights
+/// Throws ResourceError when the expanded matrices do not fit in memory, FileError when it cannot write.
+ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job);
+
+/// environment.exr (the lights as a lat-long map, 1024 x 512; discs and directional lights left out),
+/// light_bands.exr (the light that transfer sees: `bands` bands, non-negative) and picture_NAME.exr, one of
+/// each camera, 960 x 540.
+ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& folder, Job& job);
+
+/// scene.glb: the whole scene as one mesh and, as unlit vertex colours, its diffuse exit radiance under the
+/// current lights, times 2^exposure, clamped to 0..1.
+ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure, Job& job);
+
+}  // namespace prt

@@ -1,0 +1,84 @@
+// Lights and pictures as EXR, shapes with baked colours as glTF.
+
+#include "libprt/core/image_io.h"
+#include "libprt/light/projection.h"
+#include "libprt/mesh/mesh_writer.h"
+#include "libprt/project/export.h"
+#include "libprt/project/export_manifest.h"
+#include "libprt/project/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// A light as a lat-long map: each pixel the radiance at its centre.
+Image latLong(const LightRig& lights, int width, int height) {
+  Image image(width, height, 3);
+  const MapGeometry map(EnvironmentMapping::LatLong, width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Rgb value = radiance(lights, Vec3(map.center(x, y)));
+      for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = value[c];
+    }
+  return image;
+}
+
+/// Only letters, digits, - and _ survive in a file's name.
+std::string fileName(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum((unsigned char)c) && c != '-') c = '_';
+  return name;
+}
+
+/// Diffuse exit radiance at each vertex.
+std::vector<Rgb> vertexColors(const ExportInput& input, double exposure) {
+  const Scene& scene = *input.baked.geometry->scene;
+  const Transfer& transfer = input.baked.transfer->transfer;
+  const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
+  std::vector<Rgb> colors = irradiance(transfer, light, input.baked.samples->samples->shadingNormal);
+  colors.resize(scene.mesh.vertexCount());
+  const float scale = float(std::exp2(exposure)) / kPiF;
+  for (std::size_t v = 0; v < colors.size(); ++v)
+    colors[v] = clamp(colors[v] * input.recipe.objects[scene.vertexObject[v]].material.albedo * scale, Rgb(0), Rgb(1));
+  return colors;
+}
+
+}  // namespace
+
+ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& folder, Job& job) {
+  ExportManifest manifest(folder, "exr");
+  const int bands = input.baked.transfer->transfer.bands;
+  LightRig map = input.lights;
+  map.circles.clear();
+  map.directionals.clear();
+  writeImage(folder / "environment.exr", latLong(map, 1024, 512));
+  manifest.addFile("environment.exr", "the environment as it is turned, lat-long, top row +Y, centre column -Z");
+  const ShRgb light = nonNegativeLight(lightFor(input.lights, bands, input.recipe.method));
+  writeImage(folder / "light_bands.exr", bandLimitedMap(light, 512, 256).pixels());
+  manifest.addFile("light_bands.exr", "all lights in " + std::to_string(bands) + " bands, windowed to be non-negative");
+  std::vector<CameraRecipe> cameras = input.recipe.cameras;
+  PictureOptions options{960, 540};
+  for (const CameraRecipe& camera : cameras) {
+    const std::string file = "picture_" + fileName(camera.name) + ".exr";
+    writeImage(folder / file, relight(input.baked, input.recipe, input.lights, camera.camera(), options, job));
+    manifest.addFile(file, "relit picture of camera " + camera.name + ", linear radiance, alpha = coverage");
+  }
+  return manifest.finish();
+}
+
+ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure, Job& job) {
+  ExportManifest manifest(folder, "gltf");
+  const std::vector<Rgb> colors = vertexColors(input, exposure);
+  MeshWriteOptions options;
+  options.colors = colors;
+  options.name = "scene";
+  options.unlit = true;
+  writeMesh(folder / "scene.glb", input.baked.geometry->scene->mesh, options, job);
+  manifest.set("exposure", exposure);
+  manifest.addFile("scene.glb", "all objects with vertex colours: diffuse exit radiance under the current lights, 0..1");
+  return manifest.finish();
+}
+
+}  // namespace prt

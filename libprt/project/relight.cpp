@@ -1,0 +1,42 @@
+#include "libprt/project/relight.h"
+
+#include "libprt/core/error.h"
+#include "libprt/project/lights.h"
+
+namespace prt {
+
+BakedScene bakedScene(const Products& products) {
+  BakedScene baked{products.get<SceneProduct>("scene"), products.get<SamplesProduct>("samples"),
+                   products.get<TransferProduct>("transfer")};
+  if (!baked.geometry || !baked.samples || !baked.transfer)
+    throw ValueError("nothing is baked", "transfer", "bake it first");
+  const ProductState& state = *products.state("transfer");
+  baked.level = state.level;
+  baked.levels = state.levels;
+  return baked;
+}
+
+BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project) {
+  const Products products = pipeline.find(recipe, {"scene", "samples", "transfer"});
+  if (!products.state("transfer")) throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
+  return bakedScene(products);
+}
+
+Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
+              const PictureOptions& options, Job& job) {
+  const Scene scene = withMaterials(*baked.geometry->scene, recipe);
+  const Transfer& transfer = baked.transfer->transfer;
+  const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
+  RenderInput input{scene, *baked.samples->samples, transfer, light, shadeMethod(recipe.method.name), {}, nullptr};
+  if (options.background) input.background = &lights;
+  return render(input, camera, options.width, options.height, options.grid, job);
+}
+
+ShadeMethod shadeMethod(const std::string& name) {
+  if (name == "auto") return ShadeMethod::Auto;
+  if (name == "diffuse") return ShadeMethod::Diffuse;
+  if (name == "glossy") return ShadeMethod::Glossy;
+  throw ValueError("there is no method '" + name + "'", "method.name", "use auto, diffuse or glossy");
+}
+
+}  // namespace prt
