@@ -70,6 +70,20 @@ bool fitsBetweenStages(int bands) {
   return 4 * ((3 * shCount(bands) + 3) / 4 + 5) <= most;
 }
 
+// Number `index` of the van der Corput sequence in a base, 0..1.
+float vanDerCorput(int index, int base) {
+  float value = 0, place = 1;
+  for (; index > 0; index /= base) value += float(index % base) * (place /= float(base));
+  return value;
+}
+
+// Moves the picture so that pixel centres fall on the places of the pass.
+Mat4 shifted(const Picture& picture) {
+  Mat4 move(1);
+  move[3] = Vec4(-2.0f * passShift(picture.pass) / Vec2(picture.width, picture.height), 0, 1);
+  return move;
+}
+
 int supportedSamples(int wanted) {
   GLint most = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
@@ -78,10 +92,15 @@ int supportedSamples(int wanted) {
 
 }  // namespace
 
+Vec2 passShift(int pass) {
+  return pass == 0 ? Vec2(0) : Vec2(vanDerCorput(pass, 2) - 0.5f, vanDerCorput(pass, 3) - 0.5f);
+}
+
 SceneRenderer::SceneRenderer()
     : irradianceProgram_(Program::fromLibrary("mesh_irradiance.vert", "mesh_irradiance.frag")),
       backgroundProgram_(Program::fromLibrary("fullscreen.vert", "background.frag")),
       toneProgram_(Program::fromLibrary("fullscreen.vert", "tone.frag")),
+      meanProgram_(Program::fromLibrary("fullscreen.vert", "mean.frag")),
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
   for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_,
@@ -91,6 +110,7 @@ SceneRenderer::SceneRenderer()
   backgroundProgram_.set("environment", kEnvironmentUnit);
   toneProgram_.set("manySamples", kManySamplesUnit);
   toneProgram_.set("oneSample", kOneSampleUnit);
+  meanProgram_.set("sum", kOneSampleUnit);
   // The default number of bands; others are compiled when light in them is set.
   for (const Light light : {Light::Interpolated, Light::Fetched, Light::Everywhere}) radianceProgram(light, bands_);
   checkErrors("start of the GL renderer");
@@ -225,21 +245,38 @@ void SceneRenderer::draw(const Picture& picture, unsigned framebuffer) {
   const int samples = supportedSamples(picture.samples);
   drawRadiance(picture, PixelFormat::Rgba16f, samples);
 
+  // Passes are summed as the screen shows them, so that edges against bright light get smooth too.
+  if (!passes_ || passes_.width() != picture.width || passes_.height() != picture.height)
+    passes_ = Framebuffer::create(picture.width, picture.height, PixelFormat::Rgba16f, false);
+  passes_.bind();
+  glDisable(GL_DEPTH_TEST);
+  if (picture.pass > 0) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+  }
+  drawToned(picture, samples);
+  glDisable(GL_BLEND);
+
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, picture.width, picture.height);
+  passes_.colour().bind(kOneSampleUnit);
+  meanProgram_.set("count", float(picture.pass + 1));
+  meanProgram_.use();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  checkErrors("drawing");
+}
+
+void SceneRenderer::drawToned(const Picture& picture, int samples) {
   radiance_.colour().bind(samples > 1 ? kManySamplesUnit : kOneSampleUnit);
   toneProgram_.set("samples", samples);
   toneProgram_.set("exposure", picture.tone.exposure);
   toneProgram_.set("filmic", picture.tone.curve == ToneCurve::Filmic ? 1 : 0);
   toneProgram_.set("behind", picture.behind);
   toneProgram_.use();
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
   glBindVertexArray(emptyArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glBindVertexArray(0);
-  glUseProgram(0);
-  checkErrors("drawing");
 }
 
 Image SceneRenderer::render(const Picture& picture) {
@@ -284,7 +321,7 @@ void SceneRenderer::drawMesh(const Picture& picture) {
   const Vec2 depth = depthRange(picture.camera, bounds_);
   const float aspect = float(picture.width) / float(picture.height);
   Program& program = light_ == Light::Irradiance ? irradianceProgram_ : radianceProgram(light_, bands_);
-  program.set("worldToClip", picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
+  program.set("worldToClip", shifted(picture) * picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
   materialBuffer_.bindStorage(kMaterialBinding);
   if (light_ != Light::Irradiance) {
     program.set("eye", picture.camera.eye);
@@ -303,7 +340,9 @@ void SceneRenderer::drawMesh(const Picture& picture) {
 // Behind everything: the triangle lies on the far plane and passes where nothing nearer was drawn.
 void SceneRenderer::drawBackground(const Picture& picture) {
   const auto direction = [&](float x, float y) {
-    return picture.camera.direction(x * picture.width, y * picture.height, picture.width, picture.height);
+    const Vec2 shift = passShift(picture.pass);
+    return picture.camera.direction(x * float(picture.width) + shift.x, y * float(picture.height) - shift.y, picture.width,
+                                    picture.height);
   };
   // Directions on the image plane, at distance 1 along the optical axis.
   const Vec3 forward = direction(0.5f, 0.5f);

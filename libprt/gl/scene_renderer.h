@@ -32,6 +32,9 @@ struct Picture {
   int width = 0;
   int height = 0;
   int samples = 4;  ///< per pixel; what the driver cannot do is lowered
+  /// The number of this picture in a series of the same view, for draw(): each is taken at other places in
+  /// the pixels and the mean of all so far is shown. Smooth edges where many samples at once are slow.
+  int pass = 0;
   Background background = Background::Environment;
   Rgb behind{0};  ///< of draw(): what is seen where alpha is 0, as the screen shows it
   float environmentRotation = 0;  ///< radians, counter-clockwise seen from +Y
@@ -39,6 +42,9 @@ struct Picture {
   bool smoothEnvironment = false;  ///< between texels; otherwise piecewise constant, as the map lights
   ToneSettings tone = {};          ///< of draw() and renderToned()
 };
+
+/// Where in its pixels a pass is taken: from the centre, in pixels right and up; pass 0 at the centre.
+Vec2 passShift(int pass);
 
 class SceneRenderer {
  public:
@@ -80,17 +86,18 @@ class SceneRenderer {
   void drawRadiance(const Picture& picture, PixelFormat format, int samples);
   void drawMesh(const Picture& picture);
   void drawBackground(const Picture& picture);
+  void drawToned(const Picture& picture, int samples);
   void useRadiance(Light light, int bands);
   Program& radianceProgram(Light light, int bands);
   void uploadResponses();
 
-  Program irradianceProgram_, backgroundProgram_, toneProgram_;
+  Program irradianceProgram_, backgroundProgram_, toneProgram_, meanProgram_;
   std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
   VertexArray meshArray_, emptyArray_;
   Buffer positions_, normals_, front_, behind_, objects_, indices_;
   Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_;
   Texture environment_;
-  Framebuffer radiance_;
+  Framebuffer radiance_, passes_;
   PixelFormat radianceFormat_ = PixelFormat::Rgba16f;
   std::vector<Material> materials_;
   std::vector<std::uint32_t> back_;

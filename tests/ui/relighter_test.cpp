@@ -1,0 +1,107 @@
+#include "ui/model/relighter.h"
+
+#include "libprt/light/built_in_skies.h"
+#include "libprt/light/projection.h"
+#include "libprt/mesh/generate.h"
+#include "libprt/transport/transfer_bake.h"
+
+#include <gtest/gtest.h>
+
+namespace prt::ui {
+namespace {
+
+std::shared_ptr<const Scene> sphereScene() {
+  const SceneObject object{"sphere", std::make_shared<const TriMesh>(makeIcosphere({.radius = 1, .subdivisions = 2})),
+                           Mat4(1), Material{}};
+  return std::make_shared<const Scene>(flattenScene(std::span(&object, 1)));
+}
+
+Transfer diffuseTransfer(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<const SampleSet>& samples) {
+  TransferSettings settings;
+  settings.form = TransferForm::Diffuse;
+  settings.bands = 3;
+  settings.rays = 64;
+  settings.bounces = 0;
+  Job job;
+  return bakeTransfer(scene, std::make_shared<RayScene>(*scene), samples, settings, job);
+}
+
+TEST(Relighter, WithoutTransferTheSurfaceIsLitWithoutShadows) {
+  Relighter relighter;
+  relighter.setScene(sphereScene());
+  LightRig rig;
+  rig.constant = Rgb(1);
+  relighter.setLights(rig);
+  EXPECT_EQ(relighter.surface().form, TransferForm::None);
+  EXPECT_NEAR(relighter.light().evaluate(Vec3(0, 1, 0)).x, 1, 1e-5);
+}
+
+TEST(Relighter, TransferIsAppliedOncePerChange) {
+  const auto scene = sphereScene();
+  const auto samples = std::make_shared<const SampleSet>(samplesAtVertices(*scene));
+  Relighter relighter;
+  int changes = 0;
+  QObject::connect(&relighter, &Relighter::changed, [&] { ++changes; });
+  relighter.setScene(scene);
+  relighter.setSamples(samples);
+  relighter.setTransfer(std::make_shared<const Transfer>(diffuseTransfer(scene, samples)));
+  LightRig rig;
+  rig.constant = Rgb(1, 2, 0);
+  relighter.setLights(rig);
+  EXPECT_GE(changes, 4);
+  ASSERT_EQ(relighter.surface().form, TransferForm::Diffuse);
+  const Rgb* first = relighter.surface().irradiance.data();
+  EXPECT_NEAR(first->x, kPiF, 0.05f) << "a sphere sees half the sky everywhere";
+  EXPECT_NEAR(first->y, 2 * kPiF, 0.1f);
+  EXPECT_EQ(relighter.surface().irradiance.data(), first) << "nothing changed, nothing is computed";
+  const quint64 version = relighter.lightVersion();
+  rig.constant = Rgb(0);
+  relighter.setLights(rig);
+  EXPECT_GT(relighter.lightVersion(), version);
+  EXPECT_EQ(relighter.surface().irradiance[0], Rgb(0));
+}
+
+TEST(Relighter, TurningTheEnvironmentTurnsItsCoefficients) {
+  const auto map = std::make_shared<const EnvironmentMap>(softboxStudio(64, 32));
+  Relighter relighter;
+  relighter.setScene(sphereScene());
+  relighter.setEnvironment(map, projectEnvironment(*map, 10));
+  LightRig rig;
+  rig.rotation = 1.1f;
+  rig.intensity = 2;
+  relighter.setLights(rig);
+  EXPECT_EQ(relighter.environment(), map) << "lights leave the map alone";
+  rig.environment = map;
+  const ShRgb expected = projectLights(rig, 5);
+  ASSERT_EQ(relighter.light().c.size(), expected.c.size());
+  for (std::size_t k = 0; k < expected.c.size(); ++k) EXPECT_LT(length(relighter.light().c[k] - expected.c[k]), 1e-4f);
+}
+
+TEST(Relighter, TheSameGeometryKeepsItsTransferAnotherForgetsIt) {
+  const auto scene = sphereScene();
+  const auto samples = std::make_shared<const SampleSet>(samplesAtVertices(*scene));
+  Relighter relighter;
+  relighter.setScene(scene);
+  relighter.setSamples(samples);
+  relighter.setTransfer(std::make_shared<const Transfer>(diffuseTransfer(scene, samples)));
+  relighter.setScene(sphereScene());
+  EXPECT_TRUE(relighter.transfer());
+  auto moved = std::make_shared<Scene>(*scene);
+  moved->mesh.positions[0] += Vec3(0.1f);
+  relighter.setScene(moved);
+  EXPECT_FALSE(relighter.transfer());
+  relighter.setScene(nullptr);
+  EXPECT_FALSE(relighter.scene());
+}
+
+TEST(Relighter, MaterialsChangeThePictureNotTheLight) {
+  Relighter relighter;
+  relighter.setScene(sphereScene());
+  const quint64 light = relighter.lightVersion(), materials = relighter.materialVersion();
+  relighter.setMaterials({Material{.albedo = Rgb(0.1f)}});
+  EXPECT_EQ(relighter.lightVersion(), light);
+  EXPECT_GT(relighter.materialVersion(), materials);
+}
+
+}  // namespace
+}  // namespace prt::ui

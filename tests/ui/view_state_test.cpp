@@ -1,0 +1,106 @@
+#include "ui/model/view_state.h"
+
+#include <gtest/gtest.h>
+
+namespace prt::ui {
+namespace {
+
+float distance(const Camera& c) { return length(c.eye - c.target); }
+
+// Where a point appears: from the middle of the view, in heights, y upwards.
+Vec2 place(const Camera& camera, const Vec3& point) {
+  const Frame axes = camera.axes();
+  const Vec3 d = point - camera.eye;
+  const float depth = -dot(d, axes.normal), height = 2 * std::tan(0.5f * camera.verticalFov);
+  return Vec2(dot(d, axes.tangent), dot(d, axes.bitangent)) / (depth * height);
+}
+
+TEST(ViewState, OrbitTurnsAboutTheTarget) {
+  ViewState view;
+  const Camera before = view.camera();
+  view.orbit(0.25f, 0.1f);
+  const Camera& after = view.camera();
+  EXPECT_NEAR(distance(after), distance(before), 1e-4);
+  EXPECT_EQ(after.target, before.target);
+  EXPECT_GT(length(after.eye - before.eye), 0.5f);
+  EXPECT_GT(after.eye.y, 0) << "dragging down shows the top";
+  EXPECT_LT(after.eye.x, 0) << "dragging right brings the left side to the front";
+}
+
+TEST(ViewState, OrbitStopsShortOfThePolesAndStaysFinite) {
+  ViewState view;
+  for (int i = 0; i < 40; ++i) view.orbit(0.01f, 0.3f);  // downwards: over the top
+  EXPECT_TRUE(isFinite(view.camera().eye));
+  EXPECT_GT(view.camera().eye.y, 0.99f * distance(view.camera()));
+  for (int i = 0; i < 80; ++i) view.orbit(0.01f, -0.3f);
+  EXPECT_LT(view.camera().eye.y, -0.99f * distance(view.camera()));
+  EXPECT_NEAR(distance(view.camera()), 3, 1e-3);
+}
+
+TEST(ViewState, PanMovesTheTargetWithThePointer) {
+  ViewState view;
+  const Vec3 point = view.camera().target;
+  view.pan(0.2f, -0.1f);  // pointer: right and up (y grows downwards)
+  const Vec2 now = place(view.camera(), point);
+  EXPECT_NEAR(now.x, 0.2f, 1e-5);
+  EXPECT_NEAR(now.y, 0.1f, 1e-5);
+}
+
+TEST(ViewState, ZoomKeepsWhatIsUnderThePointer) {
+  ViewState view;
+  const Frame axes = view.camera().axes();
+  const Vec3 point = view.camera().target + 0.4f * axes.tangent - 0.3f * axes.bitangent;
+  const Vec2 at = place(view.camera(), point);
+  const float before = distance(view.camera());
+  view.zoom(3, at.x, at.y);
+  EXPECT_LT(distance(view.camera()), before);
+  EXPECT_NEAR(length(place(view.camera(), point) - at), 0, 1e-5);
+  view.zoom(-3, at.x, at.y);
+  EXPECT_NEAR(distance(view.camera()), before, 1e-4);
+}
+
+TEST(ViewState, FrameShowsTheWholeBoxFromTheSameSide) {
+  ViewState view;
+  view.orbit(0.3f, 0.2f);
+  const Vec3 direction = view.camera().axes().normal;
+  Box3 box;
+  box.extend(Vec3(10, 20, 30));
+  box.extend(Vec3(14, 21, 33));
+  view.frame(box);
+  EXPECT_NEAR(length(view.camera().axes().normal - direction), 0, 1e-5);
+  float largest = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner(i & 1 ? 10 : 14, i & 2 ? 20 : 21, i & 4 ? 30 : 33);
+    const Vec2 at = place(view.camera(), corner);
+    largest = std::max({largest, std::abs(at.x), std::abs(at.y)});
+  }
+  EXPECT_LT(largest, 0.5f);
+  EXPECT_GT(largest, 0.25f);
+  const Camera framed = view.camera();
+  view.frame(Box3{});
+  EXPECT_EQ(view.camera(), framed) << "nothing to frame";
+}
+
+TEST(ViewState, ResetReturnsHome) {
+  ViewState view;
+  Camera home;
+  home.eye = Vec3(1, 2, 3);
+  view.setHome(home);
+  view.orbit(0.3f, 0.3f);
+  view.reset();
+  EXPECT_EQ(view.camera(), home);
+}
+
+TEST(ViewState, SaysWhenItChangesAndOnlyThen) {
+  ViewState view;
+  int changes = 0;
+  QObject::connect(&view, &ViewState::changed, [&] { ++changes; });
+  view.setTone({.exposure = 1, .curve = ToneCurve::Linear});
+  view.setTone({.exposure = 1, .curve = ToneCurve::Linear});
+  view.setBackground(BackgroundMode::Plain);
+  view.setBackground(BackgroundMode::Plain);
+  EXPECT_EQ(changes, 2);
+}
+
+}  // namespace
+}  // namespace prt::ui

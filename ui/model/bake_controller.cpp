@@ -1,0 +1,232 @@
+#include "ui/model/bake_controller.h"
+
+#include "libprt/core/error.h"
+#include "libprt/project/recipe_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <QPointer>
+
+#include <algorithm>
+#include <mutex>
+
+namespace prt::ui {
+
+namespace {
+
+bool covers(const std::string& section, const std::string& path) {
+  return path == section || (path.starts_with(section) && path[section.size()] == '.');
+}
+
+// What each stage and everything before it reads from the recipe, as text: equal texts, equal products
+// as long as the files on disk stay the same.
+std::map<std::string, std::string> readings(const Recipe& recipe) {
+  Recipe plain = resolved(recipe);
+  std::map<std::string, std::string> texts;
+  forEachField(plain, [&](const FieldPlace& place, const FieldRef& field) {
+    for (const Stage& stage : stages())
+      for (const std::string& section : stage.reads)
+        if (covers(section, place.parameter.path))
+          texts[stage.name] += place.path() + "=" + fieldToJson(field, place.parameter).dump() + "\n";
+  });
+  for (const Stage& stage : stages())
+    if (stage.derives) texts[stage.name] += stage.derives(plain) + "\n";
+  for (const Stage& stage : stages())
+    for (const std::string& input : stage.inputs) texts[stage.name] += "[" + input + "]" + texts[input];
+  return texts;
+}
+
+// What the studio shows. What these are made from follows by itself.
+const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer"};
+
+const Stage& stageNamed(const std::string& name) {
+  return *std::find_if(stages().begin(), stages().end(), [&](const Stage& stage) { return stage.name == name; });
+}
+
+// The stage and all that it is made from, in any order.
+void collect(const std::string& name, QStringList& into) {
+  const QString text = QString::fromStdString(name);
+  if (into.contains(text)) return;
+  into << text;
+  for (const std::string& input : stageNamed(name).inputs) collect(input, into);
+}
+
+QStringList withInputs(const std::string& name) {
+  QStringList all;
+  collect(name, all);
+  return all;
+}
+
+}  // namespace
+
+// The job's thread may outlive the controller by the time the library takes to react to cancelling.
+struct BakeController::Mailbox {
+  std::mutex mutex;
+  BakeController* owner;
+
+  template <class Call>
+  void post(Call call) {
+    std::lock_guard lock(mutex);
+    if (owner) QMetaObject::invokeMethod(owner, [o = owner, call] { call(*o); }, Qt::QueuedConnection);
+  }
+};
+
+class BakeController::Listener : public PipelineListener {
+ public:
+  Listener(std::shared_ptr<Mailbox> mailbox, quint64 bake) : mailbox_(std::move(mailbox)), bake_(bake) {}
+
+  void stageBegun(const Stage& stage) override {
+    mailbox_->post([bake = bake_, name = nameOf(stage)](BakeController& c) { c.begun(bake, name); });
+  }
+  void stageDone(const Stage& stage, const ProductState& state, bool) override { pass(stage, state); }
+  void preview(const Stage& stage, const ProductState& state) override { pass(stage, state); }
+
+ private:
+  static QString nameOf(const Stage& stage) { return QString::fromStdString(stage.name); }
+  void pass(const Stage& stage, const ProductState& state) {
+    mailbox_->post([bake = bake_, name = nameOf(stage), state](BakeController& c) { c.arrived(bake, name, state); });
+  }
+
+  std::shared_ptr<Mailbox> mailbox_;
+  quint64 bake_;
+};
+
+BakeController::BakeController(JobRunner& runner, QObject* parent)
+    : QObject(parent), runner_(runner), mailbox_(std::make_shared<Mailbox>()) {
+  mailbox_->owner = this;
+  QStringList needed;
+  for (const std::string& name : kWanted) collect(name, needed);
+  for (const Stage& stage : stages())
+    if (const QString name = QString::fromStdString(stage.name); needed.contains(name))
+      infos_.push_back({name, QString::fromStdString(stage.makes), stage.stored});
+}
+
+BakeController::~BakeController() {
+  cancel();
+  std::lock_guard lock(mailbox_->mutex);
+  mailbox_->owner = nullptr;
+}
+
+void BakeController::setBaker(std::shared_ptr<Baker> baker) {
+  cancel();
+  baker_ = std::move(baker);
+  wanted_.clear();
+  made_.clear();
+  final_.clear();
+  error_.clear();
+  for (StageInfo& info : infos_) info.status = ProductStatus::Missing;
+  Q_EMIT changed();
+}
+
+void BakeController::setRecipe(const Recipe& recipe) {
+  if (!baker_) return;
+  recipe_ = recipe;
+  std::map<std::string, std::string> wanted = readings(recipe);
+  if (wanted == wanted_) return;
+  wanted_ = std::move(wanted);
+  cancel();
+  refreshStale();
+  if (automatic_ && !fresh()) start();
+}
+
+void BakeController::bake() {
+  if (baker_ && !baking()) start();
+}
+
+void BakeController::cancel() {
+  if (!baking()) return;
+  const quint64 job = job_;
+  ++bake_;  // whatever still comes from it is not wanted
+  job_ = 0;
+  for (StageInfo& info : infos_)
+    if (info.status == ProductStatus::Baking) info.status = ProductStatus::Stale;
+  runner_.cancel(job);
+  Q_EMIT changed();
+}
+
+void BakeController::setAutomatic(bool automatic) {
+  automatic_ = automatic;
+  if (automatic && !fresh()) bake();
+}
+
+bool BakeController::fresh() const {
+  return std::all_of(infos_.begin(), infos_.end(), [](const StageInfo& i) { return i.status == ProductStatus::Fresh; });
+}
+
+ProductStatus BakeController::worstStatus(const QStringList& names) const {
+  constexpr ProductStatus kOrder[] = {ProductStatus::Failed, ProductStatus::Preview, ProductStatus::Baking,
+                                      ProductStatus::Stale, ProductStatus::Missing};
+  for (const ProductStatus status : kOrder)
+    for (const StageInfo& info : infos_)
+      if (info.status == status && names.contains(info.name)) return status;
+  return ProductStatus::Fresh;
+}
+
+void BakeController::start() {
+  const quint64 bake = ++bake_;
+  error_.clear();
+  const auto work = [baker = baker_, recipe = recipe_, mailbox = mailbox_, bake](Job& job) {
+    Listener listener(mailbox, bake);
+    baker->pipeline.run(recipe, kWanted, job, &listener);
+  };
+  const auto finish = [self = QPointer(this), bake](const JobInfo& job) {
+    if (self) self->ended(bake, job);
+  };
+  job_ = runner_.start(QStringLiteral("bake"), tr("Bake transfer"), work, finish);
+  Q_EMIT changed();
+}
+
+void BakeController::begun(quint64 bake, const QString& stage) {
+  if (bake != bake_) return;
+  infoOf(stage)->status = ProductStatus::Baking;
+  Q_EMIT changed();
+}
+
+void BakeController::arrived(quint64 bake, const QString& stage, const ProductState& state) {
+  if (bake != bake_) return;
+  StageInfo& info = *infoOf(stage);
+  info.status = state.final() ? ProductStatus::Fresh : ProductStatus::Preview;
+  info.level = state.level;
+  info.levels = state.levels;
+  if (state.final()) {
+    final_[stage.toStdString()] = state;
+    // What it was made from is as good as made, even where the project had the result and nobody asked.
+    for (const QString& each : withInputs(stage.toStdString())) {
+      infoOf(each)->status = ProductStatus::Fresh;
+      made_[each.toStdString()] = wanted_[each.toStdString()];
+    }
+  }
+  Q_EMIT productArrived(stage, state);
+  Q_EMIT changed();
+}
+
+void BakeController::ended(quint64 bake, const JobInfo& job) {
+  if (bake != bake_) return;
+  job_ = 0;
+  for (StageInfo& info : infos_) {
+    const bool unfinished = info.status == ProductStatus::Baking;
+    if (unfinished) info.status = job.state == JobState::Failed ? ProductStatus::Failed : ProductStatus::Stale;
+  }
+  if (job.state == JobState::Failed) {
+    error_ = job.error;
+    Q_EMIT failed(job.error);
+  }
+  Q_EMIT changed();
+}
+
+// Which products no longer are what the recipe asks for.
+void BakeController::refreshStale() {
+  for (StageInfo& info : infos_) {
+    const auto made = made_.find(info.name.toStdString());
+    const bool same = made != made_.end() && made->second == wanted_.at(info.name.toStdString());
+    if (same) info.status = ProductStatus::Fresh;
+    else if (info.status != ProductStatus::Missing) info.status = ProductStatus::Stale;
+  }
+  Q_EMIT changed();
+}
+
+StageInfo* BakeController::infoOf(const QString& stage) {
+  return &*std::find_if(infos_.begin(), infos_.end(), [&](const StageInfo& info) { return info.name == stage; });
+}
+
+}  // namespace prt::ui

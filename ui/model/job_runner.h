@@ -1,0 +1,90 @@
+#pragma once
+// Runs the library's long functions behind the interface. Work happens on threads of low priority;
+// everything that a widget sees arrives by signals on the thread that owns the runner, as values or
+// immutable shared products.
+
+#include "libprt/core/job.h"
+
+#include <QObject>
+#include <QString>
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace prt::ui {
+
+enum class JobState { Queued, Running, Paused, Done, Cancelled, Failed };
+
+/// What there is to know about one job.
+struct JobInfo {
+  quint64 id = 0;
+  QString kind;   ///< jobs of one kind run one after another
+  QString title;  ///< for people
+  JobState state = JobState::Queued;
+  Progress progress;
+  QString error;  ///< of a failed job
+
+  bool over() const { return state >= JobState::Done; }
+};
+
+class JobRunner : public QObject {
+  Q_OBJECT
+ public:
+  using Work = std::function<void(Job&)>;
+  /// Called on the runner's thread when the work ended, unless the runner is gone.
+  using Finish = std::function<void(const JobInfo&)>;
+
+  explicit JobRunner(int threads = 2, QObject* parent = nullptr);
+  /// Cancels everything and waits for it: at most as long as the library takes to react.
+  ~JobRunner() override;
+  /// The same, early; nothing can be started after it.
+  void stop();
+
+  /// Queues work. A job of the same kind that waits is dropped and one that runs is cancelled: the newest
+  /// request is the one that counts.
+  quint64 start(const QString& kind, const QString& title, Work work, Finish finish = {});
+
+  void cancel(quint64 id);
+  void cancelKind(const QString& kind);
+  void pause(quint64 id);
+  void resume(quint64 id);
+
+  /// The jobs that wait or run, and the last few that are over; oldest first.
+  const std::vector<JobInfo>& jobs() const { return infos_; }
+  const JobInfo* find(quint64 id) const;
+  bool idle() const;
+
+ Q_SIGNALS:
+  /// A job was added, progressed, or ended.
+  void changed(quint64 id);
+  void finished(quint64 id);
+
+ private:
+  struct Task;
+  static constexpr std::size_t kRemembered = 20;
+
+  void workerLoop();
+  std::shared_ptr<Task> takeTask();
+  void run(const std::shared_ptr<Task>& task);
+  void report(quint64 id, const Progress& progress);
+  void conclude(const std::shared_ptr<Task>& task, JobState state, const QString& error);
+  JobInfo* info(quint64 id);
+  void forgetOld();
+
+  std::mutex mutex_;  // guards queue_, running_, stopping_
+  std::condition_variable wake_;
+  std::deque<std::shared_ptr<Task>> queue_;
+  std::vector<std::shared_ptr<Task>> running_;
+  bool stopping_ = false;
+  std::vector<std::thread> threads_;
+
+  std::vector<JobInfo> infos_;  // only on the runner's own thread, as all below
+  quint64 nextId_ = 1;
+};
+
+}  // namespace prt::ui

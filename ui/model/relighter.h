@@ -1,0 +1,78 @@
+#pragma once
+// From light to what the surface receives: keeps scene, transfer and light together and applies one to
+// the other when a picture is about to be drawn, once per change.
+
+#include "libprt/basis/sh.h"
+#include "libprt/light/light_rig.h"
+#include "libprt/material/material.h"
+#include "libprt/shade/surface_light.h"
+#include "libprt/transport/sample_set.h"
+#include "libprt/transport/scene.h"
+#include "libprt/transport/transfer.h"
+
+#include <QObject>
+
+#include <memory>
+#include <vector>
+
+namespace prt::ui {
+
+class Relighter : public QObject {
+  Q_OBJECT
+ public:
+  explicit Relighter(QObject* parent = nullptr) : QObject(parent) {}
+
+  /// A new scene forgets samples and transfer, unless its geometry is the old one's. Null: nothing.
+  void setScene(std::shared_ptr<const Scene> scene);
+  /// Where transfer is known: its samples on back sides.
+  void setSamples(std::shared_ptr<const SampleSet> samples);
+  /// Transfer of the scene's vertices; null until there is any: the scene is then lit without shadows.
+  void setTransfer(std::shared_ptr<const Transfer> transfer);
+  /// The environment and its coefficients in at least as many bands as any transfer has.
+  void setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients);
+  /// All lights but the environment's map, which stays.
+  void setLights(const LightRig& rig);
+  void setMaterials(std::vector<Material> materials);
+
+  const std::shared_ptr<const Scene>& scene() const { return scene_; }
+  const std::shared_ptr<const SampleSet>& samples() const { return samples_; }
+  const std::shared_ptr<const Transfer>& transfer() const { return transfer_; }
+  const std::shared_ptr<const EnvironmentMap>& environment() const { return rig_.environment; }
+  const LightRig& rig() const { return rig_; }
+  const std::vector<Material>& materials() const { return materials_; }
+  int bands() const { return transfer_ ? transfer_->bands : kUnshadowedBands; }
+
+  /// Coefficients of all lights, bands() bands.
+  const ShRgb& light();
+  /// The light at the samples of the scene, which must be there.
+  const SurfaceLight& surface();
+
+  // Each grows with every change of its part: whoever uploads knows what is new.
+  quint64 sceneVersion() const { return sceneVersion_; }
+  quint64 lightVersion() const { return lightVersion_; }
+  quint64 environmentVersion() const { return environmentVersion_; }
+  quint64 materialVersion() const { return materialVersion_; }
+
+ Q_SIGNALS:
+  /// A picture drawn now would differ.
+  void changed();
+  void sceneChanged();
+  void environmentChanged();
+
+ private:
+  static constexpr int kUnshadowedBands = 5;
+  void touchLight();
+  void apply();
+
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const SampleSet> samples_;
+  std::shared_ptr<const Transfer> transfer_;
+  ShRgb environmentCoefficients_;
+  LightRig rig_;
+  std::vector<Material> materials_;
+  ShRgb light_;
+  SurfaceLight surface_;
+  quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0, appliedVersion_ = 0;
+};
+
+}  // namespace prt::ui

@@ -1,0 +1,326 @@
+#include "ui/model/session.h"
+
+#include "libprt/basis/sh.h"
+#include "libprt/core/error.h"
+#include "libprt/light/projection.h"
+#include "libprt/project/lights.h"
+#include "libprt/project/products.h"
+#include "libprt/project/scenes.h"
+#include "ui/model/expression.h"
+
+#include <QDir>
+#include <QFileInfo>
+
+#include <algorithm>
+
+namespace prt::ui {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLightBands = 10;  // as many as transfer can have
+
+fs::path nativePath(const QString& path) { return fs::path(path.toStdString()); }
+
+bool isEnvironmentFile(const QString& path) {
+  const QString ending = QFileInfo(path).suffix().toLower();
+  return ending == u"hdr" || ending == u"exr" || ending == u"png";
+}
+
+QString nameOf(TransferForm form) {
+  switch (form) {
+    case TransferForm::None: return QObject::tr("nothing (light arrives unchanged)");
+    case TransferForm::Diffuse: return QObject::tr("a diffuse vector");
+    case TransferForm::Visibility: return QObject::tr("the visibility function");
+    case TransferForm::Matrix: return QObject::tr("a transfer matrix");
+  }
+  return {};
+}
+
+}  // namespace
+
+/// What opening a file brings, made on a job's thread.
+struct Session::Opened {
+  Recipe recipe;
+  QString path;  // of a project
+  std::shared_ptr<Baker> baker;
+};
+
+Session::Session(QObject* parent)
+    : QObject(parent), bakes_(jobs_), environments_(std::make_shared<EnvironmentCache>()) {
+  connect(&document_, &Document::recipeChanged, this, &Session::follow);
+  connect(&bakes_, &BakeController::productArrived, this, &Session::take);
+  connect(&bakes_, &BakeController::changed, this, &Session::statusChanged);
+  connect(&bakes_, &BakeController::failed, this,
+          [this](const QString& text) { report(Severity::Error, text, Place::Transfer); });
+}
+
+Session::~Session() { jobs_.stop(); }
+
+QStringList Session::sampleScenes() const {
+  QStringList names;
+  for (const std::string& name : builtinSceneNames()) names << QString::fromStdString(name);
+  return names;
+}
+
+// ---- opening ----
+
+void Session::open(const QString& what) {
+  if (isEnvironmentFile(what)) return openEnvironment(what);
+  const bool builtin = what.startsWith(u"scene:") || what.startsWith(u"builtin:");
+  const QString path = builtin ? what : QFileInfo(what).absoluteFilePath();
+  auto result = std::make_shared<Opened>();
+  const auto work = [path, result](Job& job) { readProject(path, *result, job); };
+  const auto finish = [this, result, what](const JobInfo& job) {
+    opening_ = false;
+    if (job.state == JobState::Done) adopt(*result);
+    else if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Viewport);
+    Q_EMIT statusChanged();
+  };
+  opening_ = true;
+  jobs_.start(QStringLiteral("open"), tr("Open %1").arg(QFileInfo(what).fileName()), work, finish);
+  Q_EMIT statusChanged();
+}
+
+// Reads as far as it takes to know that it can be shown: the scene stage. What was read stays with the
+// baker, so the bake does not read it again.
+void Session::readProject(const QString& path, Opened& opened, Job& job) {
+  const RecipeSource source = openRecipe(path.toStdString());
+  opened.recipe = source.recipe;
+  std::shared_ptr<ProjectFile> file;
+  if (!source.project.empty()) {
+    file = ProjectFile::openForWork(source.project);
+    opened.recipe = file->recipe();
+    opened.path = QString::fromStdString(source.project.string());
+  } else {
+    rebasePaths(opened.recipe, source.folder, "/");  // not saved anywhere: paths from the root
+  }
+  opened.baker = std::make_shared<Baker>(file, file ? source.folder : fs::path("/"));
+  opened.baker->pipeline.run(opened.recipe, {"scene"}, job);
+}
+
+void Session::adopt(const Opened& opened) {
+  frameNext_ = true;
+  selectedObject_ = 0;
+  environmentShown_.clear();
+  relighter_.setScene(nullptr);
+  bakes_.setBaker(opened.baker);
+  document_.open(opened.recipe, opened.path);
+  log_.add(Severity::Info, tr("Opened %1").arg(document_.title()));
+  Q_EMIT selectionChanged(selectedObject_);
+}
+
+void Session::openEnvironment(const QString& path) {
+  const QString file = QFileInfo(path).absoluteFilePath();
+  startEnvironment(LightRecipe{.path = file.toStdString()}, [this, file] {
+    Recipe next = document_.recipe();
+    int index = environmentIndex();
+    if (index < 0) {
+      index = int(next.lights.size());
+      next.lights.push_back({});
+    }
+    LightRecipe& light = next.lights[std::size_t(index)];
+    light.path = file.toStdString();
+    light.mapping = "auto";
+    environmentShown_ = keyOf(light);  // it is there already
+    document_.edit(tr("Load environment"), next);
+  });
+}
+
+void Session::save(const QString& path) {
+  const fs::path file = nativePath(QFileInfo(path).absoluteFilePath());
+  const bool sameFile = bakes_.baker() && bakes_.baker()->file && bakes_.baker()->file->file() == file;
+  Recipe recipe = document_.recipe();
+  if (!sameFile) rebasePaths(recipe, folder(), file.parent_path());
+  bakes_.cancel();  // the file is the bake's store; it goes on from its checkpoint afterwards
+  // A project of another name gets the products that there are; the next bake finds them in it.
+  auto next = std::make_shared<std::shared_ptr<Baker>>(bakes_.baker());
+  const auto work = [=, products = bakes_.finalProducts()](Job&) {
+    if (!sameFile) *next = std::make_shared<Baker>(ProjectFile::openForWork(file), file.parent_path());
+    const auto& store = (*next)->file;
+    store->setRecipe(recipe);
+    for (const auto& [stage, state] : products) {
+      const auto known = std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == stage; });
+      if (!sameFile && known->stored) store->put(stage, state.key, {state.product->save(), state.level, state.levels});
+    }
+    store->save();
+  };
+  const auto finish = [this, file, recipe, sameFile, next](const JobInfo& job) {
+    if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Viewport);
+    if (job.state != JobState::Done) return;
+    const QString name = QString::fromStdString(file.string());
+    if (!sameFile) bakes_.setBaker(*next);
+    document_.markSaved(name, recipe);
+    log_.add(Severity::Info, tr("Saved %1").arg(document_.title()));
+    if (bakes_.automatic()) bakes_.bake();
+  };
+  jobs_.start(QStringLiteral("bake"), tr("Save %1").arg(QFileInfo(path).fileName()), work, finish);
+}
+
+// ---- the light ----
+
+int Session::environmentIndex() const {
+  const auto& lights = document_.recipe().lights;
+  const auto found = std::find_if(lights.begin(), lights.end(),
+                                  [](const LightRecipe& l) { return l.kind == LightKind::Environment; });
+  return found == lights.end() ? -1 : int(found - lights.begin());
+}
+
+double Session::environmentAngle() const {
+  const int index = environmentIndex();
+  return index < 0 ? 0 : double(document_.recipe().lights[std::size_t(index)].rotation);
+}
+
+void Session::setEnvironmentAngle(double degrees) {
+  const int index = environmentIndex();
+  if (index < 0) return;
+  Recipe next = document_.recipe();
+  next.lights[std::size_t(index)].rotation = float(std::remainder(degrees, 360.0));
+  document_.edit(tr("Turn environment"), next);
+}
+
+QString Session::environmentFile() const {
+  const int index = environmentIndex();
+  return index < 0 ? QString() : QString::fromStdString(document_.recipe().lights[std::size_t(index)].path);
+}
+
+QString Session::keyOf(const LightRecipe& light) {
+  return QString::fromStdString(light.path + "\n" + light.mapping);
+}
+
+// Reads a map and its coefficients behind the interface, then shows it; `loaded` runs right before.
+void Session::startEnvironment(const LightRecipe& light, std::function<void()> loaded) {
+  struct Result {
+    std::shared_ptr<const EnvironmentMap> map;
+    ShRgb coefficients;
+  };
+  auto result = std::make_shared<Result>();
+  const auto work = [result, light, folder = folder(), cache = environments_](Job& job) {
+    result->map = cache->get(light.path, light.mapping, folder);
+    result->coefficients = projectEnvironment(*result->map, kLightBands, job);
+  };
+  const auto finish = [this, result, loaded = std::move(loaded)](const JobInfo& job) {
+    if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Light);
+    if (job.state != JobState::Done) return;
+    loaded();
+    relighter_.setEnvironment(result->map, result->coefficients);
+    const std::string warning = result->map->report().warning();
+    if (!warning.empty()) report(Severity::Warning, QString::fromStdString(warning), Place::Light);
+  };
+  jobs_.start(QStringLiteral("light"), tr("Load light"), work, finish);
+}
+
+void Session::applyLights() {
+  const int index = environmentIndex();
+  std::vector<LightRecipe> others;
+  for (const LightRecipe& light : document_.recipe().lights)
+    if (light.kind != LightKind::Environment) others.push_back(light);
+  EnvironmentCache none;
+  LightRig rig = makeLightRig(others, {}, none);
+  QString key;
+  if (index >= 0) {
+    const LightRecipe& light = document_.recipe().lights[std::size_t(index)];
+    rig.rotation = float(radians(light.rotation));
+    rig.intensity = light.intensity;
+    key = keyOf(light);
+  }
+  relighter_.setLights(rig);
+  if (key == environmentShown_) return;
+  environmentShown_ = key;
+  if (index < 0) relighter_.setEnvironment(nullptr, {});
+  else startEnvironment(document_.recipe().lights[std::size_t(index)], [] {});
+}
+
+// ---- what follows from an edit ----
+
+void Session::follow() {
+  applyLights();
+  applyMaterials();
+  bakes_.setRecipe(document_.recipe());
+  Q_EMIT statusChanged();
+}
+
+void Session::applyMaterials() {
+  const auto& scene = relighter_.scene();
+  const auto& objects = document_.recipe().objects;
+  if (!scene || scene->materials.size() != objects.size()) return;
+  std::vector<Material> materials;
+  for (const ObjectRecipe& object : objects) materials.push_back(object.material);
+  relighter_.setMaterials(std::move(materials));
+}
+
+void Session::take(const QString& stage, const ProductState& state) {
+  if (stage == u"mesh") {
+    const auto meshes = std::dynamic_pointer_cast<const MeshProduct>(state.product);
+    meshReports_.clear();
+    for (std::size_t i = 0; i < meshes->meshes.size(); ++i) meshReports_ << QString::fromStdString(meshes->repairText(i));
+  } else if (stage == u"scene") {
+    relighter_.setScene(std::dynamic_pointer_cast<const SceneProduct>(state.product)->scene);
+    applyMaterials();
+    if (std::exchange(frameNext_, false)) showFirst();
+  } else if (stage == u"samples") {
+    relighter_.setSamples(std::dynamic_pointer_cast<const SamplesProduct>(state.product)->samples);
+  } else if (stage == u"transfer") {
+    const auto product = std::dynamic_pointer_cast<const TransferProduct>(state.product);
+    relighter_.setTransfer(std::shared_ptr<const Transfer>(product, &product->transfer));
+    level_ = state.level;
+    levels_ = state.levels;
+  }
+  Q_EMIT statusChanged();
+}
+
+// The view of a scene that was just opened: its own camera, or one that shows everything.
+void Session::showFirst() {
+  const auto& cameras = document_.recipe().cameras;
+  view_.setHome(cameras.empty() ? frameBox(bounds()) : cameras.front().camera());
+  view_.reset();
+}
+
+// ---- what the windows ask ----
+
+void Session::selectObject(int index) {
+  if (index == selectedObject_ || index < 0 || index >= int(document_.recipe().objects.size())) return;
+  selectedObject_ = index;
+  Q_EMIT selectionChanged(index);
+}
+
+PictureStatus Session::status() const {
+  PictureStatus status;
+  const auto& transfer = relighter_.transfer();
+  const auto& materials = relighter_.materials();
+  const bool glossy = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
+  status.bands = relighter_.bands();
+  status.method = glossy && !(transfer && transfer->form == TransferForm::Diffuse) ? tr("Glossy") : tr("Diffuse");
+  if (!transfer) return status;
+  status.level = level_;
+  status.levels = levels_;
+  status.rays = transfer->raysPerSample;
+  status.raysWanted = transfer->raysWanted;
+  status.bounces = transfer->bounces;
+  return status;
+}
+
+QString Session::transferSummary() const {
+  const auto& transfer = relighter_.transfer();
+  if (!transfer) return tr("Nothing is baked yet: the surface is lit without shadows.");
+  return tr("Stored per sample: %1. %2 samples, %3 functions, %4 MB.")
+      .arg(nameOf(transfer->form), formatCount(qint64(transfer->samples)))
+      .arg(transfer->functions())
+      .arg(double(transfer->values.bytes.size()) / 1e6, 0, 'f', 1);
+}
+
+std::filesystem::path Session::folder() const {
+  return document_.path().isEmpty() ? fs::path("/") : nativePath(document_.path()).parent_path();
+}
+
+bool Session::settled() const { return !opening_ && jobs_.idle() && relighter_.scene() != nullptr; }
+
+Box3 Session::bounds() const { return relighter_.scene() ? relighter_.scene()->mesh.bounds() : Box3{}; }
+
+void Session::report(Severity severity, const QString& text, Place place) {
+  log_.add(severity, text);
+  if (severity != Severity::Info) Q_EMIT message(severity, text, place);
+}
+
+}  // namespace prt::ui

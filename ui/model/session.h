@@ -1,0 +1,119 @@
+#pragma once
+// One open studio without its window: the document and everything that follows from it. Widgets show
+// what is here and call what is here; nothing here knows a widget.
+
+#include "libprt/project/lights.h"
+#include "ui/model/bake_controller.h"
+#include "ui/model/document.h"
+#include "ui/model/job_runner.h"
+#include "ui/model/log.h"
+#include "ui/model/relighter.h"
+#include "ui/model/view_state.h"
+
+#include <QObject>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace prt::ui {
+
+/// What the picture on screen is made with.
+struct PictureStatus {
+  QString method;            ///< "Diffuse", "Glossy", "Unshadowed"
+  int bands = 0;
+  int level = 0, levels = 0;  ///< passes of the transfer that is drawn; level == levels: final
+  int rays = 0, raysWanted = 0;
+  int bounces = 0;
+  std::optional<double> estimatedError;  ///< relative; of the interpolation between samples
+};
+
+/// Where a message belongs, so that it appears there.
+enum class Place { Viewport, Light, Material, Transfer };
+
+class Session : public QObject {
+  Q_OBJECT
+ public:
+  explicit Session(QObject* parent = nullptr);
+  ~Session() override;
+
+  Document& document() { return document_; }
+  ViewState& view() { return view_; }
+  JobRunner& jobs() { return jobs_; }
+  Relighter& relighter() { return relighter_; }
+  BakeController& bakes() { return bakes_; }
+  Log& log() { return log_; }
+
+  /// Opens by kind: a project (.prt), a recipe (.json), a mesh, an environment (.hdr, .exr, .png), or
+  /// "scene:NAME". The document changes only once the file has been read; until then, and when it cannot be,
+  /// everything stays as it was.
+  void open(const QString& what);
+  void openDefaultScene() { open(QStringLiteral("scene:default")); }
+  bool opening() const { return opening_; }
+  /// Nothing is being read or baked, and there is something to see.
+  bool settled() const;
+  /// Names for open("scene:NAME").
+  QStringList sampleScenes() const;
+  /// Writes the project with everything baked so far.
+  void save(const QString& path);
+
+  /// Degrees, counter-clockwise seen from above; of the first environment light.
+  double environmentAngle() const;
+  void setEnvironmentAngle(double degrees);
+  bool hasEnvironment() const { return environmentIndex() >= 0; }
+  /// File or built-in name of the environment; empty when there is none.
+  QString environmentFile() const;
+
+  int selectedObject() const { return selectedObject_; }
+  void selectObject(int index);
+
+  PictureStatus status() const;
+  /// What the mesh reader found and mended, one line per object; empty until a mesh was read.
+  const QStringList& meshReports() const { return meshReports_; }
+  /// What is stored for the surface, in words: form, functions, bytes.
+  QString transferSummary() const;
+  Box3 bounds() const;
+  void frameAll() { view_.frame(bounds()); }
+
+  /// Writes to the log, and for warnings and errors asks for a message at its place.
+  void report(Severity severity, const QString& text, Place place = Place::Viewport);
+
+ Q_SIGNALS:
+  void statusChanged();
+  void selectionChanged(int object);
+  void message(prt::ui::Severity severity, const QString& text, prt::ui::Place place);
+
+ private:
+  struct Opened;
+
+  static void readProject(const QString& path, Opened& opened, Job& job);
+  static QString keyOf(const LightRecipe& light);
+  void adopt(const Opened& opened);
+  void openEnvironment(const QString& path);
+  void startEnvironment(const LightRecipe& light, std::function<void()> loaded);
+  int environmentIndex() const;
+  std::filesystem::path folder() const;
+  void follow();
+  void applyLights();
+  void applyMaterials();
+  void take(const QString& stage, const ProductState& state);
+  void showFirst();
+
+  Document document_;
+  ViewState view_;
+  Log log_;
+  Relighter relighter_;
+  JobRunner jobs_;
+  BakeController bakes_;
+  std::shared_ptr<EnvironmentCache> environments_;  // used by one job at a time
+  bool opening_ = false;
+  bool frameNext_ = false;  // the next scene is a new one: show all of it
+  int selectedObject_ = 0;
+  QString environmentShown_;  // path and mapping of the map that is loaded or on its way
+  QStringList meshReports_;
+  int level_ = 0, levels_ = 0;
+  std::optional<double> estimatedError_;
+};
+
+}  // namespace prt::ui

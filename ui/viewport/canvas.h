@@ -1,0 +1,37 @@
+#pragma once
+// The surface that a viewport draws on: OpenGL where there is 4.5, else the CPU renderer. A canvas only
+// draws; mouse and keys go to the viewport around it.
+
+#include "ui/model/relighter.h"
+#include "ui/model/view_state.h"
+
+#include <QWidget>
+
+#include <functional>
+
+namespace prt::ui {
+
+/// What a canvas draws from, and what it tells back.
+struct CanvasContext {
+  Relighter& relighter;
+  const ViewState& view;
+  std::function<void(QPainter&)> paintOverlay;  ///< drawn over every frame, in logical pixels
+};
+
+class Canvas {
+ public:
+  virtual ~Canvas() = default;
+  virtual QWidget* widget() = 0;
+  /// What is shown has changed.
+  virtual void invalidate() = 0;
+  /// While the user drags, a frame in time is worth more than smooth edges.
+  virtual void setInteracting(bool interacting) = 0;
+  /// Milliseconds that the last frame took: relighting, drawing, tone mapping.
+  virtual double frameMilliseconds() const = 0;
+  /// "OpenGL 4.5, llvmpipe" or "CPU".
+  virtual QString describe() const = 0;
+  /// The picture without overlay as it is now on the screen.
+  virtual QImage grabPicture() = 0;
+};
+
+}  // namespace prt::ui

@@ -1,0 +1,38 @@
+#pragma once
+// Draws the scene with libprt's CPU renderer, for machines without OpenGL 4.5.
+
+#include "libprt/transport/sample_set.h"
+#include "ui/viewport/canvas.h"
+
+#include <QImage>
+
+namespace prt::ui {
+
+class CpuCanvas : public QWidget, public Canvas {
+  Q_OBJECT
+ public:
+  CpuCanvas(CanvasContext context, QWidget* parent);
+
+  QWidget* widget() override { return this; }
+  void invalidate() override { update(); }
+  void setInteracting(bool interacting) override;
+  double frameMilliseconds() const override { return milliseconds_; }
+  QString describe() const override { return tr("CPU"); }
+  QImage grabPicture() override;
+
+ protected:
+  void paintEvent(QPaintEvent*) override;
+
+ private:
+  void followScene();
+  QImage draw();
+
+  CanvasContext context_;
+  bool interacting_ = false;
+  double milliseconds_ = 0;
+  Scene scene_;        // with the materials of now
+  SampleSet samples_;
+  quint64 sceneVersion_ = 0, materialVersion_ = 0;
+};
+
+}  // namespace prt::ui

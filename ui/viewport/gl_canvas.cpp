@@ -1,0 +1,167 @@
+#include "ui/viewport/gl_canvas.h"
+
+#include "libprt/gl/headless_context.h"
+#include "libprt/gl/scene_renderer.h"
+
+#include <QElapsedTimer>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QPainter>
+#include <QSurfaceFormat>
+#include <QTimer>
+
+#include <algorithm>
+
+namespace prt::ui {
+
+namespace {
+constexpr int kSamples = 4;    // per pixel, where that is cheap
+constexpr int kPasses = 16;    // where it is not: one after the other, while nothing changes
+constexpr double kCheap = 12;  // milliseconds
+const Rgb kPlainBackground(0.16f);  // as the screen shows it
+
+QSurfaceFormat wantedFormat() {
+  QSurfaceFormat format;
+  format.setRenderableType(QSurfaceFormat::OpenGL);
+  format.setVersion(4, 5);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  format.setDepthBufferSize(0);  // the renderer has its own
+  format.setStencilBufferSize(8);  // QPainter's clipping
+  return format;
+}
+}  // namespace
+
+GlCanvas::GlCanvas(CanvasContext context, QWidget* parent) : QOpenGLWidget(parent), context_(std::move(context)) {
+  setAttribute(Qt::WA_TransparentForMouseEvents);
+  setFocusPolicy(Qt::NoFocus);
+}
+
+GlCanvas::~GlCanvas() { release(); }
+
+void GlCanvas::requestFormat() { QSurfaceFormat::setDefaultFormat(wantedFormat()); }
+
+bool GlCanvas::available() {
+  QOpenGLContext context;
+  context.setFormat(wantedFormat());
+  QOffscreenSurface surface;
+  surface.setFormat(wantedFormat());
+  surface.create();
+  if (!context.create() || !context.makeCurrent(&surface)) return false;
+  const bool sufficient = gl::contextIsSufficient();
+  context.doneCurrent();
+  return sufficient;
+}
+
+void GlCanvas::invalidate() {
+  pass_ = 0;
+  update();
+}
+
+void GlCanvas::setInteracting(bool interacting) {
+  if (interacting == interacting_) return;
+  interacting_ = interacting;
+  update();
+}
+
+void GlCanvas::initializeGL() {
+  connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &GlCanvas::release);
+  try {
+    renderer_ = std::make_unique<gl::SceneRenderer>();
+    description_ = QString::fromStdString(gl::describeContext());
+    scene_ = light_ = environment_ = materials_ = 0;
+  } catch (const std::exception& error) {
+    broken_ = true;
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+  }
+}
+
+// The objects live in the context: it must be current when they go.
+void GlCanvas::release() {
+  if (!renderer_) return;
+  makeCurrent();
+  renderer_.reset();
+  doneCurrent();
+}
+
+void GlCanvas::paintGL() {
+  QOpenGLFunctions* f = QOpenGLContext::currentContext()->functions();
+  if (broken_ || !renderer_) {
+    f->glClearColor(0.12f, 0.12f, 0.12f, 1);
+    f->glClear(GL_COLOR_BUFFER_BIT);
+    return;
+  }
+  try {
+    QElapsedTimer timer;
+    timer.start();
+    uploadChanges();
+    drawScene();
+    f->glFinish();  // else the time would be that of handing the work over
+    const double milliseconds = timer.nsecsElapsed() * 1e-6;
+    if (pass_ == 0) milliseconds_ = milliseconds;
+    goOn(milliseconds);
+  } catch (const std::exception& error) {
+    broken_ = true;
+    Q_EMIT failed(QString::fromUtf8(error.what()));
+    return;
+  }
+  QPainter painter(this);
+  context_.paintOverlay(painter);
+}
+
+// After a frame: another pass for smoother edges, while nothing changes.
+void GlCanvas::goOn(double milliseconds) {
+  if (!inPasses_ && milliseconds > kCheap) inPasses_ = true;
+  if (!inPasses_ || interacting_ || pass_ >= kPasses - 1) return;
+  ++pass_;
+  QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
+}
+
+void GlCanvas::uploadChanges() {
+  Relighter& lit = context_.relighter;
+  if (!lit.scene()) return;
+  if (scene_ != lit.sceneVersion()) {
+    renderer_->setScene(*lit.scene(), lit.samples() ? std::span<const std::uint32_t>(lit.samples()->back)
+                                                    : std::span<const std::uint32_t>());
+    scene_ = lit.sceneVersion();
+    light_ = materials_ = 0;
+  }
+  if (materials_ != lit.materialVersion()) {
+    renderer_->setMaterials(lit.materials());
+    materials_ = lit.materialVersion();
+  }
+  if (environment_ != lit.environmentVersion() && lit.environment()) {
+    renderer_->setEnvironment(*lit.environment());
+    environment_ = lit.environmentVersion();
+  }
+  if (light_ != lit.lightVersion()) {
+    renderer_->setLight(lit.surface());
+    light_ = lit.lightVersion();
+  }
+}
+
+void GlCanvas::drawScene() {
+  gl::Picture picture;
+  picture.camera = context_.view.camera();
+  picture.width = qRound(width() * devicePixelRatioF());
+  picture.height = qRound(height() * devicePixelRatioF());
+  picture.samples = inPasses_ ? 1 : kSamples;
+  picture.pass = inPasses_ ? std::min(pass_, kPasses - 1) : 0;
+  const bool environment = context_.view.background() == BackgroundMode::Environment;
+  picture.background = environment ? gl::Background::Environment : gl::Background::Black;
+  picture.behind = kPlainBackground;
+  picture.environmentRotation = context_.relighter.rig().rotation;
+  picture.environmentIntensity = context_.relighter.rig().intensity;
+  picture.smoothEnvironment = true;
+  picture.tone = context_.view.tone();
+  renderer_->draw(picture, defaultFramebufferObject());
+}
+
+QImage GlCanvas::grabPicture() {
+  const auto overlay = std::exchange(context_.paintOverlay, [](QPainter&) {});
+  const QImage image = grabFramebuffer();
+  context_.paintOverlay = overlay;
+  return image;
+}
+
+}  // namespace prt::ui

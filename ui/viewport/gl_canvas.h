@@ -1,0 +1,59 @@
+#pragma once
+// Draws the scene with prt_gl inside Qt's OpenGL context.
+
+#include "ui/viewport/canvas.h"
+
+#include <QOpenGLWidget>
+
+#include <memory>
+
+namespace prt::gl {
+class SceneRenderer;
+}
+
+namespace prt::ui {
+
+class GlCanvas : public QOpenGLWidget, public Canvas {
+  Q_OBJECT
+ public:
+  GlCanvas(CanvasContext context, QWidget* parent);
+  ~GlCanvas() override;
+
+  /// Asks for OpenGL 4.5 core in every context made from now on. Before the application object.
+  static void requestFormat();
+  /// Whether this machine gives such a context. Needs the application object.
+  static bool available();
+
+  QWidget* widget() override { return this; }
+  void invalidate() override;
+  void setInteracting(bool interacting) override;
+  double frameMilliseconds() const override { return milliseconds_; }
+  QString describe() const override { return description_; }
+  QImage grabPicture() override;
+
+ Q_SIGNALS:
+  /// The driver refused a shader or ran out of memory; nothing more will be drawn.
+  void failed(const QString& message);
+
+ protected:
+  void initializeGL() override;
+  void paintGL() override;
+
+ private:
+  void release();
+  void uploadChanges();
+  void drawScene();
+  void goOn(double milliseconds);
+
+  CanvasContext context_;
+  std::unique_ptr<gl::SceneRenderer> renderer_;
+  bool interacting_ = false;
+  bool broken_ = false;
+  double milliseconds_ = 0;
+  bool inPasses_ = false;  // smooth edges come from several passes over time, not from several samples at once
+  int pass_ = 0;           // of the next frame
+  QString description_;
+  quint64 scene_ = 0, light_ = 0, environment_ = 0, materials_ = 0;
+};
+
+}  // namespace prt::ui

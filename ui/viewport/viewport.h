@@ -1,0 +1,61 @@
+#pragma once
+// The 3D view: shows the relit scene and is steered with the mouse.
+//   Alt + left or middle drag   orbit        wheel         zoom towards the pointer
+//   ... with Shift              pan          F, R          frame all, reset the view
+//   Shift + left or right drag  turns the environment
+// Files dropped on it are opened.
+
+#include "ui/viewport/canvas.h"
+
+#include <QPointF>
+#include <QTimer>
+#include <QWidget>
+
+namespace prt::ui {
+
+class Session;
+
+class Viewport : public QWidget {
+  Q_OBJECT
+ public:
+  explicit Viewport(Session& session, QWidget* parent = nullptr);
+
+  Canvas& canvas() { return *canvas_; }
+  /// What the mouse does here, for the status bar.
+  QString hint() const;
+  QSize sizeHint() const override { return {960, 720}; }
+
+ Q_SIGNALS:
+  void hintChanged(const QString& hint);
+
+ protected:
+  void resizeEvent(QResizeEvent*) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+  void focusOutEvent(QFocusEvent*) override;
+
+ private:
+  enum class Drag { None, Orbit, Pan, TurnLight };
+
+  void chooseCanvas();
+  void useCpu(const QString& why);
+  Drag dragOf(Qt::MouseButton button, Qt::KeyboardModifiers modifiers) const;
+  void endDrag();
+  void turnLight(float pixels);
+  void interact();
+  void refresh();
+
+  Session& session_;
+  Canvas* canvas_ = nullptr;  // a child widget
+  Drag drag_ = Drag::None;
+  Qt::MouseButton dragButton_ = Qt::NoButton;
+  QPointF last_;
+  QTimer settle_;  // when the hand rests, the edges get smooth again
+};
+
+}  // namespace prt::ui

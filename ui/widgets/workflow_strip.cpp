@@ -1,0 +1,40 @@
+#include "ui/widgets/workflow_strip.h"
+
+#include "ui/widgets/state_dot.h"
+#include "ui/widgets/theme.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+namespace prt::ui {
+
+WorkflowStrip::WorkflowStrip(QWidget* parent) : QWidget(parent), row_(new QHBoxLayout(this)) {
+  row_->setContentsMargins(0, 0, 2 * kGrid, 0);
+  row_->setSpacing(2);
+}
+
+void WorkflowStrip::addStep(const QString& title, const QString& tip, std::function<ProductStatus()> status,
+                            std::function<void()> activate) {
+  if (!steps_.empty()) {
+    auto* arrow = new QLabel(QStringLiteral("\u203a"));
+    setRole(arrow, "muted");
+    arrow->setContentsMargins(kGrid, 0, kGrid, 0);
+    row_->addWidget(arrow);
+  }
+  auto* dot = new StateDot;
+  auto* button = new QToolButton;
+  button->setText(title);
+  button->setToolTip(tip);
+  button->setFocusPolicy(Qt::NoFocus);
+  connect(button, &QToolButton::clicked, this, std::move(activate));
+  row_->addWidget(dot);
+  row_->addWidget(button);
+  steps_.push_back({dot, std::move(status)});
+}
+
+void WorkflowStrip::refresh() {
+  for (const Step& step : steps_) step.dot->setStatus(step.status());
+}
+
+}  // namespace prt::ui
