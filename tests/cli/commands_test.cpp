@@ -1,6 +1,8 @@
 // What each command does when all is well.
 
 #include "libprt/core/image_io.h"
+#include "libprt/core/npy.h"
+#include "libprt/mesh/repair.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -8,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 
 namespace prt {
@@ -18,7 +21,8 @@ using nlohmann::json;
 using test::ProgramResult;
 using testing::HasSubstr;
 
-const std::vector<std::string> kCommands{"bake", "reference", "compare", "info", "verify", "light"};
+const std::vector<std::string> kCommands{"bake",   "relight", "reference", "compare", "info",
+                                         "verify", "export",  "light",     "demo",    "bench"};
 const std::set<std::string> kStored{"mesh", "direct", "transfer"};
 
 class Commands : public testing::Test {
@@ -118,6 +122,100 @@ TEST_F(Commands, LightPrintsEnergyAndTruncation) {
   const json band = prtJson({"light", "band.exr", "--bands", "4"});
   EXPECT_NEAR(band["coefficients"][0][0], light["coefficients"][0][0], 1e-3);
   EXPECT_LT(band["truncation_error"][3], 0.02);
+}
+
+TEST_F(Commands, BakePrintsWhatToExpect) {
+  bakeSmall("a.prt");
+  const json baked = prtJson({"bake", "a.prt", "--set", "transfer.rays=128"});
+  EXPECT_EQ(baked["transfer"]["form"], "diffuse");
+  EXPECT_EQ(baked["transfer"]["rays"], 128);
+  EXPECT_GT(baked["floor"]["interpolation"].get<double>() + baked["floor"]["monte_carlo"].get<double>(), 0);
+  EXPECT_THAT(prt({"bake", "a.prt"}).out, HasSubstr("interpolation floor"));
+}
+
+TEST_F(Commands, RelightAgreesWithTheReference) {
+  bakeSmall("a.prt", {"--set", "transfer.rays=1024", "--set", "mesh.detail=0.5"});
+  const std::vector<std::string> view{"--light", "constant:1", "--size", "80x60"};
+  const auto picture = [&](std::vector<std::string> words) {
+    words.insert(words.end(), view.begin(), view.end());
+    const ProgramResult result = prt(words);
+    ASSERT_EQ(result.status, 0) << result.err;
+  };
+  picture({"relight", "a.prt", "-o", "relit.exr"});
+  picture({"reference", "a.prt", "--spp", "256", "-o", "truth.exr"});
+  EXPECT_LT(prtJson({"compare", "relit.exr", "truth.exr"})["relative_rmse"], 0.02);
+}
+
+TEST_F(Commands, RelightTurnsTheEnvironment) {
+  bakeSmall("a.prt");
+  const auto picture = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> words{"relight", "a.prt", "--env", "builtin:orientation", "--size", "32x24", "-o", name};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(prt(words).status, 0);
+    return readImage(folder / name).data;
+  };
+  const auto still = picture("0.exr", {});
+  EXPECT_EQ(picture("360.exr", {"--rotate", "0"}), still);
+  EXPECT_NE(picture("90.exr", {"--rotate", "90"}), still);
+  EXPECT_EQ(picture("t1.exr", {"--threads", "1"}), picture("t3.exr", {"--threads", "3"}));
+  const Image alpha = readImage(folder / "0.exr");
+  EXPECT_EQ(alpha.channels, 4);
+  EXPECT_EQ(alpha.pixel(0, 0)[3], 0);
+  picture("b.exr", {"--background"});
+  EXPECT_EQ(readImage(folder / "b.exr").pixel(0, 0)[3], 1);
+}
+
+TEST_F(Commands, RelightWithOpenGlMakesTheSamePicture) {
+  bakeSmall("a.prt");
+  for (const char* backend : {"cpu", "gl"})
+    ASSERT_EQ(prt({"relight", "a.prt", "--backend", backend, "--size", "320x240", "-o", std::string(backend) + ".exr"}).status, 0);
+  // Inside surfaces; along silhouettes the two take their samples of a pixel at different places.
+  EXPECT_LT(prtJson({"compare", "gl.exr", "cpu.exr"})["percentile95"], 0.01);
+}
+
+TEST_F(Commands, CamerasComeFromFilesAndNames) {
+  std::ofstream(folder / "r.json") << R"({"mesh": "builtin:box", "cameras": [{"name": "side", "eye": [4, 0, 0]}], "transfer": {"rays": 16}})";
+  ASSERT_EQ(prt({"bake", "r.json", "-o", "a.prt"}).status, 0);
+  std::ofstream(folder / "cam.json") << R"({"eye": [4, 0, 0], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 30})";
+  for (const char* camera : {"side", "cam.json"})
+    ASSERT_EQ(prt({"relight", "a.prt", "--camera", camera, "--size", "32x24", "-o", std::string(camera) + ".exr"}).status, 0);
+  EXPECT_EQ(readImage(folder / "side.exr").data, readImage(folder / "cam.json.exr").data);
+}
+
+TEST_F(Commands, ExportWritesWhatTheManifestSays) {
+  bakeSmall("a.prt", {"--set", "transfer.kind=matrix", "--set", "material.albedo=0.8,0.4,0.2"});
+  prtJson({"export", "a.prt", "--npy", "npy", "--exr", "exr", "--gltf", "gltf"});
+  const auto manifestOf = [&](const std::string& kind) {
+    const json manifest = json::parse(std::ifstream(folder / (kind + "/manifest.json")));
+    for (const auto& [file, entry] : manifest["files"].items()) EXPECT_TRUE(fs::exists(folder / (kind + "/" + file))) << file;
+    return manifest;
+  };
+  const json npy = manifestOf("npy");
+  const auto vertices = npy["vertices"].get<std::int64_t>(), faces = npy["faces"].get<std::int64_t>();
+  const std::map<std::string, std::vector<std::int64_t>> shapes{
+      {"positions", {vertices, 3}}, {"normals", {vertices, 3}},          {"tangents", {vertices, 3}},
+      {"faces", {faces, 3}},        {"transfer", {vertices, 25, 25, 3}}, {"transfer_diffuse", {vertices, 25, 3}}};
+  for (const auto& [name, shape] : shapes) {
+    const Array array = readNpy(folder / ("npy/" + name + ".npy"));
+    EXPECT_EQ(array.shape, shape) << name;
+    EXPECT_EQ(npy["files"][name + ".npy"]["shape"], shape);
+  }
+  EXPECT_GT(readImage(folder / "exr/light_bands.exr").width, 0);
+  manifestOf("exr");
+  manifestOf("gltf");
+  Job job;
+  EXPECT_EQ(loadMesh(folder / "gltf/scene.glb", {}, job).triangleCount(), std::size_t(faces));
+}
+
+TEST_F(Commands, DemoLeavesAPageThatNeedsNothingElse) {
+  const json demo = prtJson({"demo", "-o", "d", "--scene", "default", "--frames", "2", "--size", "48x36", "--set", "transfer.rays=32",
+                             "--set", "objects[0].mesh.detail=0.3", "--set", "objects[1].mesh.detail=0.3"});
+  std::ifstream file(folder / "d/index.html");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  for (const char* outside : {"http://", "https://", "<link", "@import"}) EXPECT_THAT(page, testing::Not(HasSubstr(outside)));
+  EXPECT_EQ(readImage(folder / "d/default_180.png").width, 48);
+  EXPECT_TRUE(demo["scenes"].contains("default"));
 }
 
 TEST_F(Commands, ReferenceIsTheSamePictureForTheSameSeed) {

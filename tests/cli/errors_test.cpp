@@ -37,6 +37,7 @@ class Errors : public testing::Test {
     std::ofstream(folder / "empty.prt");
     fs::create_directory(folder / "dir");
     ASSERT_EQ(test::run({"prt", "bake", "t.obj", "-o", "a.prt", "--set", "transfer.rays=16", "-q"}, folder.path()).status, 0);
+    ASSERT_EQ(test::run({"prt", "bake", "t.obj", "-o", "mesh.prt", "--stage", "mesh", "-q"}, folder.path()).status, 0);
     fs::resize_file((fs::copy_file(folder / "a.prt", folder / "cut.prt"), folder / "cut.prt"), 200000);
   }
 
@@ -74,6 +75,12 @@ TEST_F(Errors, WrongUsageIsStatus2) {
   failure(kUsage, {"reference", "a.prt", "-o", "x.exr", "--spp", "0"});
   failure(kUsage, {"reference", "a.prt", "-o", "x.txt"});
   failure(kUsage, {"compare", "one.exr"});
+  failure(kUsage, {"relight", "a.prt", "-o", "x.exr", "--backend", "vulkan"});
+  failure(kUsage, {"relight", "a.prt", "-o", "x.exr", "--method", "magic"});
+  failure(kUsage, {"export", "a.prt"});
+  failure(kUsage, {"demo"});
+  failure(kUsage, {"demo", "-o", "d", "--scene", "none"});
+  EXPECT_THAT(failure(kUsage, {"bench", "bke"}), HasSubstr("did you mean bake? choose from bake"));
 }
 
 TEST_F(Errors, LightsAreExplained) {
@@ -104,6 +111,12 @@ TEST_F(Errors, BadInputIsStatus1) {
   failure(kFailed, {"reference", "a.prt", "--env", "builtin:mars", "-o", "x.exr"});
   EXPECT_THAT(failure(kFailed, {"reference", "a.prt", "--camera", "side", "-o", "x.exr"}), HasSubstr("there is no camera 'side'"));
   failure(kFailed, {"reference", "a.prt", "--camera", "broken.json", "-o", "x.exr"});
+  failure(kFailed, {"relight", "cut.prt", "-o", "x.exr"});
+  EXPECT_THAT(failure(kFailed, {"relight", "mesh.prt", "-o", "x.exr"}), HasSubstr("run prt bake mesh.prt"));
+  EXPECT_THAT(failure(kFailed, {"export", "mesh.prt", "--npy", "d"}), HasSubstr("run prt bake mesh.prt"));
+  EXPECT_THAT(failure(kFailed, {"relight", "a.prt", "--method", "glossy", "-o", "x.exr"}), HasSubstr("glossy"));
+  failure(kFailed, {"export", "a.prt", "--npy", "text.txt"});
+  failure(kFailed, {"demo", "-o", "text.txt"});
   failure(kFailed, {"reference", "a.prt", "--camera", "typo.json", "-o", "x.exr"});
 }
 
