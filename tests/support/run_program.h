@@ -54,7 +54,9 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  void send(int signal) { ::kill(pid_, signal); }
+  void send(int signal) {
+    if (pid_ > 0) ::kill(pid_, signal);  // kill(-1) would reach every process there is
+  }
   bool running() {
     int status = 0;
     if (pid_ > 0 && ::waitpid(pid_, &status, WNOHANG) == pid_) ended(status);
