@@ -72,6 +72,7 @@ void addBake(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(stageNames()))
       ->allow_extra_args(false);
   command->add_option("--checkpoint", options->checkpointSeconds, "Least seconds between checkpoints")
+      ->check(finite())
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   command->footer(parameterHelp);

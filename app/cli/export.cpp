@@ -50,7 +50,7 @@ void addExport(CLI::App& app, Action& action) {
   command->add_option("--npy", options->npy, "Folder for .npy arrays: geometry, transfer, light");
   command->add_option("--exr", options->exr, "Folder for .exr pictures: the light, and a picture of each camera");
   command->add_option("--gltf", options->gltf, "Folder for a .glb with the current light baked into vertex colours");
-  command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")->check(finite())->check(CLI::Range(-30.0, 30.0))->capture_default_str();
   command->footer("Example:\n  prt export bunny.prt --npy arrays && python3 -c \"import numpy; print(numpy.load('arrays/transfer_diffuse.npy').shape)\"");
   command->callback([options, &action] { action = [options](Session& s) { exportProject(s, *options); }; });
 }

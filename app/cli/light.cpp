@@ -83,7 +83,7 @@ void addLight(CLI::App& app, Action& action) {
   command->add_option("--bands", options->bands, "Spherical-harmonic bands; n bands have n^2 functions")
       ->check(CLI::Range(1, kMaxShBands))
       ->capture_default_str();
-  command->add_option("--rotate", options->rotate, "Turn about +Y in degrees, counter-clockwise seen from above");
+  command->add_option("--rotate", options->rotate, "Turn about +Y in degrees, counter-clockwise seen from above")->check(finite());
   command->add_option("--window", options->window, "Against ringing: none, hann, lanczos, fejer or dering")
       ->check(CLI::IsMember(parameterAt("method.window").choices))
       ->capture_default_str();

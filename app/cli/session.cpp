@@ -8,6 +8,8 @@
 
 #include <unistd.h>
 
+#include <cmath>
+
 namespace prt::cli {
 
 void Session::start() {
@@ -25,6 +27,15 @@ void Session::say(const std::string& line) const {
 
 void Session::result(const nlohmann::json& object) const {
   if (json) fmt::print("{}\n", object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+CLI::Validator finite() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+            return number ? std::string() : "'" + text + "' is not a finite number";
+          },
+          "", "finite"};
 }
 
 }  // namespace prt::cli

@@ -41,6 +41,9 @@ class Session {
   std::unique_ptr<Job> job_;
 };
 
+/// For options: a finite number.
+CLI::Validator finite();
+
 /// A subcommand's work, once the command line is understood.
 using Action = std::function<void(Session&)>;
 

@@ -86,14 +86,18 @@ std::string lowerExtension(const std::string& file) {
 void ViewOptions::addTo(CLI::App& command) {
   command.add_option("PROJECT", project, "Baked project (.prt)")->required();
   command.add_option("--env", environment, "Environment instead of the project's lights: EXR, HDR, PNG or builtin:NAME");
-  command.add_option("--rotate", rotate, "Turn of the environment about +Y in degrees, counter-clockwise seen from above");
+  command.add_option("--rotate", rotate, "Turn of the environment about +Y in degrees, counter-clockwise seen from above")
+      ->check(finite());
   command.add_option("--light", lights, "circle:DIR:DEG:RGB, directional:DIR:RGB or constant:RGB; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   command.add_option("--camera", camera, "Camera of the project by name, or a .json file; default: the first");
   command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
   command.add_flag("--background", background, "Show the environment behind the scene");
-  command.add_option("--exposure", exposure, "Stops, for PNG only")->check(CLI::Range(-30.0, 30.0))->capture_default_str();
+  command.add_option("--exposure", exposure, "Stops, for PNG only")
+      ->check(finite())
+      ->check(CLI::Range(-30.0, 30.0))
+      ->capture_default_str();
   command.add_option("-o,--output", output, "Picture to write: .exr, .hdr or .png")->required();
 }
 

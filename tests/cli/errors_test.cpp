@@ -77,6 +77,7 @@ TEST_F(Errors, WrongUsageIsStatus2) {
   failure(kUsage, {"compare", "one.exr"});
   failure(kUsage, {"relight", "a.prt", "-o", "x.exr", "--backend", "vulkan"});
   failure(kUsage, {"relight", "a.prt", "-o", "x.exr", "--method", "magic"});
+  failure(kUsage, {"relight", "a.prt", "-o", "x.exr", "--exposure", "nan"});
   failure(kUsage, {"export", "a.prt"});
   failure(kUsage, {"demo"});
   failure(kUsage, {"demo", "-o", "d", "--scene", "none"});
