@@ -76,9 +76,7 @@ void TextScanner::skipBlanks(bool acrossLines) {
 std::string_view TextScanner::wordOnLine() {
   skipBlanks(false);
   const std::size_t begin = position_;
-  while (position_ < text_.size() && !isBlank(text_[position_]) && text_[position_] != '\n' &&
-         (comment_ == '\0' || text_[position_] != comment_))
-    ++position_;
+  while (position_ < text_.size() && !isBlank(text_[position_]) && text_[position_] != '\n') ++position_;
   return text_.substr(begin, position_ - begin);
 }
 

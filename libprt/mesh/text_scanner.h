@@ -20,8 +20,8 @@ std::string lowerCase(std::string_view text);
 
 class TextScanner {
  public:
-  /// `name` is what error messages call the text. A comment runs from `comment` to the end of its line;
-  /// '\0' means that there are none.
+  /// `name` is what error messages call the text. A comment runs from a word that begins with
+  /// `comment` to the end of its line; '\0' means that there are none.
   TextScanner(std::string_view text, std::string name, char comment = '\0');
 
   /// Next word on this or a later line; empty at the end.

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace prt {
 namespace {
 
@@ -46,6 +48,11 @@ TEST(OffReader, PolygonsAndIndicesThatNameNothing) {
   const PolygonSoup soup = off("OFF\n3 3 0\n" + kThree + "4 0 1 2 0\n0\n3 0 -1 99\n");
   EXPECT_THAT(soup.faceStart, ElementsAre(0, 4, 4, 7));
   EXPECT_THAT(soup.cornerVertex, ElementsAre(0, 1, 2, 0, 0, kNoIndex, kNoIndex));
+}
+
+TEST(OffReader, CommentsBeginWords) {
+  EXPECT_TRUE(std::isnan(off("OFF\n1 0 0 #x\n1.#QNAN 0 0 # y\n").positions[0].x))
+      << "as Microsoft's programs print it";
 }
 
 TEST(OffReader, RefusesTheRest) {

@@ -357,6 +357,26 @@ MeshReport reportOf(const char* file) {
   return diagnose(readMesh(test::sharedData(file), job), job);
 }
 
+TEST(GltfMeshes, HaveTheFactsOfTheTable) {
+  PRT_NEEDS_SHARED_DATA();
+  struct Counts {
+    const char* file;
+    std::size_t vertices, faces, duplicateVertices;
+    long euler;
+  };
+  // The truck's wheels and the engine's parts are instances: there are more faces than the file stores.
+  for (const Counts& expected :
+       {Counts{"BoxTextured.glb", 24, 12, 16, 2}, Counts{"cubevc.glb", 54, 48, 28, 2},
+        Counts{"no_indices_3storybuilding.glb", 216, 72, 192, 18},
+        Counts{"CesiumMilkTruck.glb", 2978 + 586, 2856 + 768, 1526 + 198, 24}}) {
+    const MeshReport report = reportOf((std::string("gltf/") + expected.file).c_str());
+    EXPECT_EQ(report.vertices, expected.vertices) << expected.file;
+    EXPECT_EQ(report.faces, expected.faces) << expected.file;
+    EXPECT_EQ(report.duplicateVertices.count, expected.duplicateVertices) << expected.file;
+    EXPECT_EQ(report.euler, expected.euler) << expected.file;
+  }
+}
+
 TEST(BrokenMeshes, AreDiagnosed) {
   PRT_NEEDS_SHARED_DATA();
   EXPECT_EQ(reportOf("badmeshes/soup.stl").components, 100u);
