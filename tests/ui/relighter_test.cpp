@@ -77,6 +77,22 @@ TEST(Relighter, TurningTheEnvironmentTurnsItsCoefficients) {
   for (std::size_t k = 0; k < expected.c.size(); ++k) EXPECT_LT(length(relighter.light().c[k] - expected.c[k]), 1e-4f);
 }
 
+TEST(Relighter, TheRecipesWindowKeepsASunFromRinging) {
+  Relighter relighter;
+  relighter.setScene(sphereScene());
+  LightRig rig;
+  rig.circles = {{Vec3(0, 1, 0), 0.02f, Rgb(1000)}};
+  const auto darkest = [&] {
+    float low = 0;
+    for (const Vec3& d : relighter.scene()->mesh.normals) low = std::min(low, relighter.light().evaluate(d).x);
+    return low;
+  };
+  relighter.setLights(rig);
+  EXPECT_LT(darkest(), -0.05f);
+  relighter.setLights(rig, {.window = "dering"});
+  EXPECT_GT(darkest(), -0.001f);
+}
+
 TEST(Relighter, TheSameGeometryKeepsItsTransferAnotherForgetsIt) {
   const auto scene = sphereScene();
   const auto samples = std::make_shared<const SampleSet>(samplesAtVertices(*scene));

@@ -1,5 +1,7 @@
 #include "ui/model/relighter.h"
 
+#include "libprt/project/lights.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -49,10 +51,11 @@ void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb 
   Q_EMIT environmentChanged();
 }
 
-void Relighter::setLights(const LightRig& rig) {
+void Relighter::setLights(const LightRig& rig, const MethodRecipe& method) {
   const auto environment = rig_.environment;
   rig_ = rig;
   rig_.environment = environment;
+  method_ = method;
   touchLight();
 }
 
@@ -85,7 +88,7 @@ void Relighter::apply() {
   ShRgb environment(bands());
   const std::size_t known = std::min(environment.c.size(), environmentCoefficients_.c.size());
   std::copy_n(environmentCoefficients_.c.begin(), known, environment.c.begin());
-  light_ = projectLights(rig_, environment);
+  light_ = lightFor(rig_, environment, method_);
   Transfer unshadowed;
   unshadowed.bands = bands();
   const bool ready = transfer_ && samples_;

@@ -5,6 +5,7 @@
 #include "libprt/basis/sh.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/material/material.h"
+#include "libprt/project/recipe.h"
 #include "libprt/shade/surface_light.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
@@ -30,8 +31,8 @@ class Relighter : public QObject {
   void setTransfer(std::shared_ptr<const Transfer> transfer);
   /// The environment and its coefficients in at least as many bands as any transfer has.
   void setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients);
-  /// All lights but the environment's map, which stays.
-  void setLights(const LightRig& rig);
+  /// All lights but the environment's map, which stays, and the window that keeps them from ringing.
+  void setLights(const LightRig& rig, const MethodRecipe& method = {});
   void setMaterials(std::vector<Material> materials);
 
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
@@ -69,6 +70,7 @@ class Relighter : public QObject {
   std::shared_ptr<const Transfer> transfer_;
   ShRgb environmentCoefficients_;
   LightRig rig_;
+  MethodRecipe method_;
   std::vector<Material> materials_;
   ShRgb light_;
   SurfaceLight surface_;

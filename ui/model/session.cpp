@@ -225,7 +225,7 @@ void Session::applyLights() {
     rig.intensity = light.intensity;
     key = keyOf(light);
   }
-  relighter_.setLights(rig);
+  relighter_.setLights(rig, document_.recipe().method);
   if (key == environmentShown_) return;
   environmentShown_ = key;
   if (index < 0) relighter_.setEnvironment(nullptr, {});
