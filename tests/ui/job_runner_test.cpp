@@ -49,12 +49,18 @@ TEST(JobRunner, DeliversProgressAndTheEndOnItsOwnThread) {
 TEST(JobRunner, ANewerRequestReplacesTheOlderOnesOfItsKind) {
   JobRunner runner;
   std::atomic<int> ran{0};
+  std::atomic<bool> asked{false};  // the first holds its place until the others have been asked for
   std::vector<JobState> states;
   const auto note = [&](const JobInfo& info) { states.push_back(info.state); };
-  const quint64 first = runner.start(s("bake"), s("1"), forever, note);
+  const auto holding = [&](Job& job) {
+    while (!asked) QThread::msleep(1);
+    forever(job);
+  };
+  const quint64 first = runner.start(s("bake"), s("1"), holding, note);
   ASSERT_TRUE(waitFor([&] { return runner.find(first)->state == JobState::Running; }));
   runner.start(s("bake"), s("2"), [&](Job&) { ++ran; }, note);
   runner.start(s("bake"), s("3"), [&](Job&) { ran += 10; }, note);
+  asked = true;
   ASSERT_TRUE(waitFor([&] { return states.size() == 3; }));
   EXPECT_EQ(ran, 10) << "the one in the middle never ran";
   EXPECT_EQ(std::count(states.begin(), states.end(), JobState::Cancelled), 2);
