@@ -11,12 +11,15 @@ namespace prt {
 /// `samples` matrices stored as [samples, channels, n columns, n rows]; with one channel all colours use it.
 /// Reads up to kKernelOverread elements beyond the last matrix: that memory must exist, its contents do not matter.
 struct MatrixProduct {
-  std::size_t samples, channels, n;
+  std::size_t samples;   ///< at least 1
+  std::size_t channels;  ///< 1 or 3
+  std::size_t n;         ///< at most kKernelMaxFunctions
   const float* light;  ///< [n, 3]
   float* result;       ///< [samples, n, 3]
 };
 
 inline constexpr std::size_t kKernelOverread = 32;
+inline constexpr std::size_t kKernelMaxFunctions = 100;
 
 /// For whatever the library is built for.
 void multiplyMatrices(const std::uint16_t* halves, const MatrixProduct& product);

@@ -38,16 +38,12 @@ struct Interleave {
       }
   }
 
-  /// result[3 * i + c] = colour[c][i] for `rows` <= Width rows; may write all 3 * Width places when `whole`.
+  /// result[3 * i + c] = colour[c][i] for `rows` <= Width rows, in whole vectors: up to Width - 1 places beyond are
+  /// overwritten.
   void store(const Vector<Width> (&colour)[3], int rows, float* result) const {
     for (int v = 0; v * Width < rows * 3; ++v) {
       const Vector<Width> two = __builtin_shuffle(colour[0], colour[1], first[v]);
-      const Vector<Width> all = __builtin_shuffle(two, colour[2], second[v]);
-      if ((v + 1) * Width <= rows * 3) {
-        *reinterpret_cast<Vector<Width>*>(result + v * Width) = all;
-        continue;
-      }
-      for (int i = 0; v * Width + i < rows * 3; ++i) result[v * Width + i] = all[i];
+      *reinterpret_cast<Vector<Width>*>(result + v * Width) = __builtin_shuffle(two, colour[2], second[v]);
     }
   }
 };
@@ -80,19 +76,28 @@ inline void multiplyRows(const T* matrix, std::size_t n, std::size_t row, const 
   }
 }
 
-/// 32 rows at a time, then what is left of them.
+/// 32 rows at a time, then what is left of them. `result` may be overwritten up to Width - 1 places beyond.
+template <int Width, int Channels, class T>
+inline void multiplyOne(const T* matrix, const MatrixProduct& product, const Interleave<Width>& interleave, float* result) {
+  constexpr int kParts = 32 / Width;
+  const std::size_t n = product.n;
+  std::size_t row = 0;
+  for (; n - row > 16; row = row + 32 < n ? row + 32 : n)
+    multiplyRows<Width, kParts, Channels>(matrix, n, row, product.light, interleave, result);
+  for (; row < n; row += Width) multiplyRows<Width, 1, Channels>(matrix, n, row, product.light, interleave, result);
+}
+
+/// What one sample overwrites beyond its place the next ones fill; those too near the end have a place apart.
 template <int Width, int Channels, class T>
 inline void multiplyAll(const T* matrices, const MatrixProduct& product) {
-  constexpr int kParts = 32 / Width;
   const Interleave<Width> interleave;
-  const std::size_t n = product.n, size = product.channels * n * n;
+  const std::size_t size = product.channels * product.n * product.n, width = product.n * 3, end = product.samples * width;
+  float apart[kKernelMaxFunctions * 3 + Width];
   for (std::size_t s = 0; s < product.samples; ++s) {
-    const T* matrix = matrices + s * size;
-    float* result = product.result + s * n * 3;
-    std::size_t row = 0;
-    for (; n - row > 16; row = row + 32 < n ? row + 32 : n)
-      multiplyRows<Width, kParts, Channels>(matrix, n, row, product.light, interleave, result);
-    for (; row < n; row += Width) multiplyRows<Width, 1, Channels>(matrix, n, row, product.light, interleave, result);
+    float* result = product.result + s * width;
+    const bool room = (s + 1) * width + Width <= end;
+    multiplyOne<Width, Channels>(matrices + s * size, product, interleave, room ? result : apart);
+    if (!room) __builtin_memcpy(result, apart, width * sizeof(float));
   }
 }
 
