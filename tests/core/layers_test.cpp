@@ -1,5 +1,7 @@
 // Data flows one way through libprt: a file includes only from its own folder and those before it.
 
+#include "tests/support/paths.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -36,12 +38,12 @@ std::vector<std::string> wrongIncludes(const fs::path& libprt) {
 }
 
 TEST(Layers, IncludesFollowTheFlow) {
-  EXPECT_EQ(wrongIncludes(fs::path(PRT_SOURCE_DIR) / "libprt"), std::vector<std::string>{});
+  EXPECT_EQ(wrongIncludes(test::sourceFolder() / "libprt"), std::vector<std::string>{});
 }
 
 TEST(Layers, LibprtKnowsNothingOfQt) {
   const std::regex qt(R"re(^\s*#include <Q)re");
-  for (const auto& entry : fs::recursive_directory_iterator(fs::path(PRT_SOURCE_DIR) / "libprt")) {
+  for (const auto& entry : fs::recursive_directory_iterator(test::sourceFolder() / "libprt")) {
     if (!entry.is_regular_file()) continue;
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);)

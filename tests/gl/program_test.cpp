@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/gl/sh_glsl.h"
 #include "tests/gl/gl_test_support.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -48,7 +49,7 @@ TEST_F(ProgramTest, IncludesAreResolvedOnceAndLinesKeepTheirNumbers) {
   std::size_t file = 0, line = 1;
   std::map<std::size_t, std::vector<std::string>> originals;
   for (std::size_t i = 0; i < shader.files.size(); ++i) {
-    std::ifstream in(std::string(PRT_SOURCE_DIR) + "/shaders/" + shader.files[i]);
+    std::ifstream in(test::sourceFolder() / "shaders" / shader.files[i]);
     for (std::string original; std::getline(in, original);) originals[i].push_back(original);
   }
   for (std::string row; std::getline(text, row);) {

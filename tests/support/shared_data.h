@@ -2,6 +2,8 @@
 // Real meshes and probes live outside the project. Tests that need them skip, with a message, where
 // they are absent - but fail in CI, where they must be there.
 
+#include "tests/support/paths.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -11,10 +13,10 @@
 namespace prt::test {
 
 inline std::filesystem::path sharedData(const std::string& relative) {
-  return std::filesystem::path(PRT_SHARED_DATA) / relative;
+  return sharedDataFolder() / relative;
 }
 
-inline bool sharedDataAbsent() { return !std::filesystem::exists(PRT_SHARED_DATA); }
+inline bool sharedDataAbsent() { return !std::filesystem::exists(sharedDataFolder()); }
 
 }  // namespace prt::test
 
@@ -22,6 +24,6 @@ inline bool sharedDataAbsent() { return !std::filesystem::exists(PRT_SHARED_DATA
 #define PRT_NEEDS_SHARED_DATA()                                                       \
   if (prt::test::sharedDataAbsent()) {                                                \
     if (std::getenv("CI")) FAIL() << "../shared/data must be present in CI";          \
-    GTEST_SKIP() << "needs ../shared/data, which is not here: " << PRT_SHARED_DATA;   \
+    GTEST_SKIP() << "needs ../shared/data, which is not here: " << prt::test::sharedDataFolder();   \
   }                                                                                   \
   static_assert(true)
