@@ -39,7 +39,7 @@ void info(Session& session, const std::string& file) {
   session.say(fmt::format("{}: {}", file, byteCount(double(project->bytes()))));
   for (std::size_t i = 0; i < recipe.objects.size(); ++i)
     session.say(fmt::format("object {}: {}", recipe.objects[i].name, recipe.objects[i].mesh.path));
-  for (const LightRecipe& light : recipe.lights) session.say(fmt::format("light {}: {}", light.name, light.path));
+  for (const LightRecipe& light : recipe.lights) session.say(fmt::format("light {}: {}{}", light.name, light.path, light.on ? "" : " (off)"));
   for (const CameraRecipe& camera : recipe.cameras) session.say(fmt::format("camera {}", camera.name));
   for (const ProductInfo& product : project->contents()) {
     tellProduct(session, product);

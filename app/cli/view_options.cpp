@@ -2,6 +2,7 @@
 
 #include "libprt/core/file.h"
 #include "libprt/core/image_io.h"
+#include "libprt/light/sky_angles.h"
 #include "libprt/project/lights.h"
 #include "libprt/shade/tonemap.h"
 
@@ -45,13 +46,11 @@ std::vector<double> numbers(const std::string& list, const std::string& light) {
   return values;
 }
 
-Vec3 directionOf(const std::string& part, const std::string& light) {
+Vec3 parseDirection(const std::string& part, const std::string& light) {
   const std::vector<double> v = numbers(part, light);
   if (v.size() == 3 && (v[0] != 0 || v[1] != 0 || v[2] != 0)) return Vec3(normalize(DVec3(v[0], v[1], v[2])));
   if (v.size() != 2) badLight(light, "'" + part + "' is not a direction");
-  // Azimuth counter-clockwise seen from above, 0 towards -Z; elevation from the horizon.
-  const double azimuth = radians(v[0]), elevation = radians(v[1]);
-  return Vec3(-std::sin(azimuth) * std::cos(elevation), std::sin(elevation), -std::cos(azimuth) * std::cos(elevation));
+  return directionOf(SkyAngles{radians(v[0]), radians(v[1])});
 }
 
 Rgb colorOf(const std::string& part, const std::string& light) {
@@ -107,13 +106,13 @@ LightRecipe parseLight(const std::string& text) {
   light.name = text;
   if (parts[0] == "circle" && parts.size() == 4) {
     light.kind = LightKind::Circle;
-    light.direction = directionOf(parts[1], text);
+    light.direction = parseDirection(parts[1], text);
     const std::vector<double> angle = numbers(parts[2], text);
     if (angle.size() != 1 || angle[0] <= 0 || angle[0] > 360) badLight(text, "'" + parts[2] + "' is not an angle of 0 to 360 degrees");
     light.angle = float(angle[0]);
   } else if (parts[0] == "directional" && parts.size() == 3) {
     light.kind = LightKind::Directional;
-    light.direction = directionOf(parts[1], text);
+    light.direction = parseDirection(parts[1], text);
   } else if (parts[0] == "constant" && parts.size() == 2) {
     light.kind = LightKind::Constant;
   } else {

@@ -1,7 +1,9 @@
 #include "libprt/light/built_in_skies.h"
 
+#include "libprt/basis/sh_zonal.h"
 #include "libprt/core/error.h"
 #include "libprt/light/light_rig.h"
+#include "libprt/light/projection.h"
 
 #include <algorithm>
 #include <array>
@@ -75,12 +77,8 @@ void addDisc(Image& image, const DVec3& direction, double halfAngle, const Rgb& 
     }
 }
 
-/// The lower half of the sphere becomes ground that the sky lights; then all is scaled until a level white
-/// plane looks 1.
-EnvironmentMap withGround(Image image, const Rgb& albedo, const std::string& name) {
-  const Rgb plane = levelIrradiance(EnvironmentMap(image, EnvironmentMapping::LatLong)) / kPiF;
-  const float scale = 1 / luminance(plane);
-  const MapGeometry geometry(EnvironmentMapping::LatLong, image.width, image.height);
+/// The lower half of the sphere becomes ground of this radiance, then all is scaled.
+void addGround(Image& image, const Rgb& radiance, float scale) {
   for (int y = 0; y < image.height; ++y) {
     // the share of the row's solid angle that lies below the horizon
     const double top = std::cos(kPi * y / image.height), bottom = std::cos(kPi * (y + 1) / image.height);
@@ -88,10 +86,47 @@ EnvironmentMap withGround(Image image, const Rgb& albedo, const std::string& nam
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < 3; ++c) {
         float& value = image.pixel(x, y)[c];
-        value = scale * (value + below * albedo[c] * plane[c]);
+        value = scale * (value + below * radiance[c]);
       }
   }
+}
+
+/// Ground of this albedo that the sky lights; then all is scaled until a level white plane looks 1.
+EnvironmentMap withGround(Image image, const Rgb& albedo, const std::string& name) {
+  const Rgb plane = levelIrradiance(EnvironmentMap(image, EnvironmentMapping::LatLong)) / kPiF;
+  addGround(image, albedo * plane, 1 / luminance(plane));
   return EnvironmentMap(image, EnvironmentMapping::LatLong, name);
+}
+
+/// The clear sky without its sun, black below the horizon, and the sun's irradiance on what faces it; both in klx.
+struct ClearSkyParts {
+  DVec3 toSun;
+  Image sky;
+  Rgb levelIrradiance;  ///< of the sky
+  Rgb sun{0};
+};
+
+ClearSkyParts clearSkyParts(const ClearSky& sky, int width, int height) {
+  const DVec3 sun = normalize(DVec3(sky.sunDirection));
+  const double elevation = std::asin(std::clamp(sun.y, -1.0, 1.0));
+  if (!(elevation >= radians(1.0) - 1e-6))
+    throw ValueError("the sun is not above the horizon", "clear sky", "raise it to at least one degree");
+
+  const EnvironmentMap shape = environmentFromFunction(width, height, [&](const DVec3& d) {
+    if (d.y <= 0) return Rgb(0);
+    const double angle = std::acos(std::clamp(dot(d, sun), -1.0, 1.0));
+    return float(cieClearLuminance(d.y, angle)) * skyTint(d.y, angle);
+  });
+
+  // Diffuse and direct light in klx fix the sky's scale against the sun's.
+  const double mass = airMass(elevation);
+  const float diffuse = float(0.8 + 15.5 * std::sqrt(sun.y)), direct = float(127.5 * std::exp(-0.21 * mass));
+  const Rgb level = levelIrradiance(shape);
+  const float scale = diffuse / luminance(level);
+  ClearSkyParts parts{sun, shape.pixels(), scale * level};
+  for (float& value : parts.sky.data) value *= scale;
+  if (sky.sun) parts.sun = direct * sunTint(mass);
+  return parts;
 }
 
 // --- Studio ---------------------------------------------------------------------------------------------
@@ -186,25 +221,27 @@ EnvironmentMap environmentFromFunction(int width, int height,
 }
 
 EnvironmentMap clearSky(const ClearSky& sky, int width, int height) {
-  const DVec3 sun = normalize(DVec3(sky.sunDirection));
-  const double elevation = std::asin(std::clamp(sun.y, -1.0, 1.0));
-  if (!(elevation >= radians(1.0)))
-    throw ValueError("the sun is not above the horizon", "clear sky", "raise it to at least one degree");
+  ClearSkyParts parts = clearSkyParts(sky, width, height);
+  if (sky.sun) addDisc(parts.sky, parts.toSun, kSunHalfAngle, parts.sun);
+  return withGround(std::move(parts.sky), sky.ground, "clear sky");
+}
 
-  const EnvironmentMap shape = environmentFromFunction(width, height, [&](const DVec3& d) {
-    if (d.y <= 0) return Rgb(0);
-    const double angle = std::acos(std::clamp(dot(d, sun), -1.0, 1.0));
-    return float(cieClearLuminance(d.y, angle)) * skyTint(d.y, angle);
-  });
+QuickSky quickClearSky(const ClearSky& sky, int bands, int width, int height) {
+  ClearSkyParts parts = clearSkyParts(sky, width, height);
+  // A disc wholly above the horizon sends irradiance times the sine of its height to a level plane.
+  const Rgb plane = (parts.levelIrradiance + float(parts.toSun.y) * parts.sun) / kPiF;
+  const float scale = 1 / luminance(plane);
+  addGround(parts.sky, sky.ground * plane, scale);
+  const Rgb sun = scale * parts.sun;
 
-  // Diffuse and direct light in klx fix the sky's scale against the sun's.
-  const double mass = airMass(elevation);
-  const float diffuse = float(0.8 + 15.5 * std::sqrt(sun.y)), direct = float(127.5 * std::exp(-0.21 * mass));
-  Image image = shape.pixels();
-  const float scale = diffuse / luminance(levelIrradiance(shape));
-  for (float& value : image.data) value *= scale;
-  if (sky.sun) addDisc(image, sun, kSunHalfAngle, direct * sunTint(mass));
-  return withGround(std::move(image), sky.ground, "clear sky");
+  ShRgb coefficients = projectEnvironment(EnvironmentMap(parts.sky, EnvironmentMapping::LatLong), bands);
+  if (sky.sun) {
+    const double facing = kPi * std::pow(std::sin(kSunHalfAngle), 2);  // projected solid angle of the disc
+    const std::vector<double> disc = rotateZonal(capZonal(bands, kSunHalfAngle), parts.toSun);
+    for (std::size_t k = 0; k < disc.size(); ++k) coefficients.c[k] += float(disc[k] / facing) * sun;
+    addDisc(parts.sky, parts.toSun, kSunHalfAngle, sun);
+  }
+  return {EnvironmentMap(parts.sky, EnvironmentMapping::LatLong, "clear sky"), std::move(coefficients)};
 }
 
 EnvironmentMap overcastSky(int width, int height) {

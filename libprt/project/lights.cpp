@@ -3,55 +3,83 @@
 #include "libprt/basis/sh_window.h"
 #include "libprt/basis/sh_zonal.h"
 #include "libprt/core/error.h"
-#include "libprt/light/built_in_skies.h"
 #include "libprt/light/environment_io.h"
 #include "libprt/light/projection.h"
+#include "libprt/light/sky_angles.h"
 #include "libprt/project/source_hash.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 
 namespace prt {
 namespace {
 
-EnvironmentMap readMap(const std::string& path, const std::string& mapping, const std::filesystem::path& folder) {
-  if (path.starts_with("builtin:")) return builtInSky(path.substr(8));
+EnvironmentMap readMap(const LightRecipe& light, const std::filesystem::path& folder) {
+  if (hasSun(light)) return clearSky(clearSkyOf(light));
+  if (light.path.starts_with("builtin:")) return builtInSky(light.path.substr(8));
   std::optional<EnvironmentMapping> named;
-  if (mapping != "auto") named = environmentMappingFromString(mapping);
-  return loadEnvironment(folder / path, named);
+  if (light.mapping != "auto") named = environmentMappingFromString(light.mapping);
+  return loadEnvironment(folder / light.path, named);
 }
 
 void addEnvironment(LightRig& rig, const LightRecipe& light, const std::filesystem::path& folder, EnvironmentCache& cache) {
   if (light.intensity == 0) return;
   if (rig.environment)
-    throw ValueError("two environments are lit", "lights: " + light.name, "set the intensity of all but one to 0");
-  rig.environment = cache.get(light.path, light.mapping, folder);
+    throw ValueError("two environments are lit", "lights: " + light.name, "switch all but one off");
+  rig.environment = cache.get(light, folder);
   rig.rotation = float(radians(light.rotation));
   rig.intensity = light.intensity;
 }
 
-/// Direction of a light after its own rotation about +Y.
-Vec3 turned(const LightRecipe& light) {
-  return environmentRotation(float(radians(light.rotation))) * normalize(light.direction);
+}  // namespace
+
+bool hasSun(const LightRecipe& light) {
+  return light.kind == LightKind::Environment && light.path == "builtin:clear-sky";
 }
 
-}  // namespace
+ClearSky clearSkyOf(const LightRecipe& light) {
+  return {.sunDirection = directionOf(SkyAngles{radians(light.sunAzimuth), radians(light.sunElevation)})};
+}
+
+std::string mapKey(const LightRecipe& light) {
+  if (hasSun(light)) return fmt::format("{} {} {}", light.path, light.sunAzimuth, light.sunElevation);
+  return fmt::format("{} {}", light.path, light.mapping);
+}
+
+Vec3 worldDirection(const LightRecipe& light) {
+  const Vec3 own = hasSun(light) ? clearSkyOf(light).sunDirection : normalize(light.direction);
+  return environmentRotation(float(radians(light.rotation))) * own;
+}
+
+std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const LightRecipe& light, const std::filesystem::path& folder) {
+  std::string key = mapKey(light);
+  if (!isBuiltin(light.path)) key += ' ' + hashSource(folder / light.path);
+  const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+  if (known != entries_.end()) {
+    std::rotate(known, known + 1, entries_.end());
+  } else {
+    entries_.push_back({key, std::make_shared<EnvironmentMap>(readMap(light, folder))});
+    if (entries_.size() > kKept) entries_.erase(entries_.begin());
+  }
+  return entries_.back().map;
+}
 
 std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const std::string& path, const std::string& mapping,
                                                             const std::filesystem::path& folder) {
-  const std::string contents = isBuiltin(path) ? path : hashSource(folder / path);
-  std::shared_ptr<const EnvironmentMap>& map = maps_[contents + " " + mapping];
-  if (!map) map = std::make_shared<EnvironmentMap>(readMap(path, mapping, folder));
-  return map;
+  return get(LightRecipe{.path = path, .mapping = mapping}, folder);
 }
 
 LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder, EnvironmentCache& cache) {
   LightRig rig;
   for (const LightRecipe& light : lights) {
+    if (!light.on) continue;
     const Rgb color = light.radiance * light.intensity;
     switch (light.kind) {
       case LightKind::Environment: addEnvironment(rig, light, folder, cache); break;
-      case LightKind::Circle: rig.circles.push_back({turned(light), float(radians(light.angle / 2)), color}); break;
-      case LightKind::Directional: rig.directionals.push_back({turned(light), color}); break;
+      case LightKind::Circle: rig.circles.push_back({worldDirection(light), float(radians(light.angle / 2)), color}); break;
+      case LightKind::Directional: rig.directionals.push_back({worldDirection(light), color}); break;
       case LightKind::Constant: rig.constant += color; break;
     }
   }

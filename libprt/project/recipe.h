@@ -61,8 +61,11 @@ enum class LightKind { Environment, Circle, Directional, Constant };
 struct LightRecipe {
   std::string name = "light";
   LightKind kind = LightKind::Environment;
+  bool on = true;                          ///< off: as if the light were not in the list
   std::string path = "builtin:clear-sky";  ///< environment: file or "builtin:NAME"
   std::string mapping = "auto";            ///< environment: layout of the image
+  float sunAzimuth = -135;                 ///< builtin:clear-sky: degrees from -Z, counter-clockwise from above
+  float sunElevation = 45;                 ///< builtin:clear-sky: degrees above the horizon
   float rotation = 0;                      ///< degrees about +Y, counter-clockwise seen from above
   float intensity = 1;                     ///< factor on everything this light sends
   Vec3 direction{0, 1, 0};                 ///< circle, directional: towards the light; any length but 0

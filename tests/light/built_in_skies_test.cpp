@@ -1,6 +1,7 @@
 #include "libprt/light/built_in_skies.h"
 #include "libprt/core/error.h"
 #include "libprt/light/projection.h"
+#include "libprt/light/sky_angles.h"
 #include "tests/light/light_test_support.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,36 @@ TEST(BuiltInSkies, ASunBelowTheHorizonIsRefused) {
   EXPECT_THROW(clearSky({.sunDirection = Vec3(1, 0, 0)}), ValueError);
   EXPECT_THROW(clearSky({.sunDirection = Vec3(0, -1, 0)}), ValueError);
   EXPECT_THROW(clearSky({.sunDirection = Vec3(std::numeric_limits<float>::quiet_NaN())}), ValueError);
+}
+
+/// Relative difference, all bands together.
+double difference(const ShRgb& a, const ShRgb& b) {
+  double apart = 0, all = 0;
+  for (std::size_t k = 0; k < a.c.size(); ++k)
+    apart += dot(DVec3(a.c[k] - b.c[k]), DVec3(a.c[k] - b.c[k])), all += dot(DVec3(b.c[k]), DVec3(b.c[k]));
+  return std::sqrt(apart / all);
+}
+
+TEST(BuiltInSkies, TheQuickSkyIsTheClearSkyInTheBandsOfTransfer) {
+  for (const auto& [azimuth, elevation] : {std::pair(-170.0, 2.0), {33.3, 30.0}, {120.0, 80.0}}) {
+    const ClearSky sky{.sunDirection = directionOf(SkyAngles{radians(azimuth), radians(elevation)})};
+    // On so fine a map that the sun stands where it is put: texels of 0.18 degrees.
+    const ShRgb exact = projectEnvironment(clearSky(sky, 2048, 1024), 10);
+    EXPECT_LT(difference(quickClearSky(sky, 10).coefficients, exact), 0.01) << elevation << " " << azimuth;
+  }
+}
+
+TEST(BuiltInSkies, TheQuickSkyMovesSmoothlyWithItsSun) {
+  // Steps of a twentieth of a coarse texel: each moves the light by about as much as the others.
+  double least = 1, most = 0;
+  ShRgb last;
+  for (int i = 0; i <= 20; ++i) {
+    const ClearSky sky{.sunDirection = directionOf(SkyAngles{0, radians(40 + i * 2.8125 / 20)})};
+    const ShRgb now = quickClearSky(sky, 5).coefficients;
+    if (i > 0) least = std::min(least, difference(now, last)), most = std::max(most, difference(now, last));
+    last = now;
+  }
+  EXPECT_LT(most, 1.2 * least);
 }
 
 TEST(BuiltInSkies, TheOvercastSkyFollowsTheCieGradation) {

@@ -78,9 +78,78 @@ TEST(Lights, OneEnvironmentAtATime) {
   EXPECT_NE(makeLightRig(lights, ".", cache).environment, nullptr);
 }
 
-TEST(Lights, MapsAreReadOnce) {
+TEST(Lights, ALightThatIsOffIsAsIfItWereNotThere) {
+  EnvironmentCache cache;
+  std::vector<LightRecipe> lights(5);
+  lights[1].kind = LightKind::Circle;
+  lights[2].kind = LightKind::Directional;
+  lights[3].kind = LightKind::Constant;
+  lights[4].path = "builtin:overcast";  // a second environment, which would be too many
+  for (LightRecipe& light : lights) light.on = false;
+  const LightRig dark = makeLightRig(lights, ".", cache);
+  EXPECT_EQ(dark.environment, nullptr);
+  EXPECT_TRUE(dark.circles.empty());
+  EXPECT_TRUE(dark.directionals.empty());
+  EXPECT_EQ(dark.constant, Rgb(0));
+  lights[1].on = lights[4].on = true;
+  const LightRig lit = makeLightRig(lights, ".", cache);
+  EXPECT_EQ(lit.circles.size(), 1u);
+  EXPECT_EQ(lit.environment, cache.get("builtin:overcast", "auto", "."));
+}
+
+TEST(Lights, TheSunStandsWhereTheRecipePutsIt) {
+  EnvironmentCache cache;
+  LightRecipe light;
+  light.sunAzimuth = 90;  // from -Z counter-clockwise: -X
+  light.sunElevation = 30;
+  const auto brightest = [&] {
+    Vec3 best(0);
+    float most = 0;
+    cache.get(light, ".")->forEachTexel([&](int, int, const DVec3& d, double, const Rgb& c) {
+      if (luminance(c) > most) most = luminance(c), best = Vec3(d);
+    });
+    return best;
+  };
+  const Vec3 expected(-std::cos(kPiF / 6), 0.5f, 0);
+  EXPECT_GT(dot(brightest(), expected), std::cos(0.015f)) << "within a texel";
+  EXPECT_LT(length(worldDirection(light) - expected), 1e-5f);
+  light.rotation = 90;
+  EXPECT_GT(dot(brightest(), expected), std::cos(0.015f)) << "the map does not turn with the light";
+  EXPECT_LT(length(worldDirection(light) - Vec3(0, 0.5f, std::cos(kPiF / 6))), 1e-5f) << "but the world's sun does";
+
+  Recipe recipe;
+  setByPath(recipe, "lights[0].sunElevation", "1");
+  EXPECT_NO_THROW(cache.get(recipe.lights[0], "."));
+  EXPECT_THROW(setByPath(recipe, "lights[0].sunElevation", "0.5"), ValueError);
+}
+
+TEST(Lights, MapsAreReadOnceAndKnownByTheirSun) {
   EnvironmentCache cache;
   EXPECT_EQ(cache.get("builtin:overcast", "auto", "."), cache.get("builtin:overcast", "auto", "."));
+  LightRecipe light;
+  const auto usual = cache.get(light, ".");
+  EXPECT_EQ(usual, cache.get("builtin:clear-sky", "auto", "."));
+  light.sunElevation = 46;
+  EXPECT_NE(usual, cache.get(light, "."));
+  light.sunElevation = 45;
+  light.sunAzimuth = -134;
+  EXPECT_NE(usual, cache.get(light, "."));
+}
+
+TEST(Lights, TheCacheKeepsTheMapsThatWereAskedForLast) {
+  EnvironmentCache cache;
+  LightRecipe light;
+  light.path = "builtin:studio";
+  const std::weak_ptr<const EnvironmentMap> asked = cache.get(light, ".");
+  LightRecipe other = light;
+  const std::weak_ptr<const EnvironmentMap> old = cache.get("builtin:orientation", "auto", ".");
+  for (std::size_t i = 0; i < EnvironmentCache::kKept; ++i) {
+    other.mapping = "auto " + std::to_string(i);  // another key, the same built-in map
+    cache.get(other, ".");
+    cache.get(light, ".");
+  }
+  EXPECT_FALSE(asked.expired());
+  EXPECT_TRUE(old.expired());
 }
 
 }  // namespace
