@@ -7,6 +7,7 @@
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
 #include "ui/model/session.h"
+#include "ui/viewport/light_handles.h"
 #include "ui/viewport/viewport.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
@@ -46,6 +47,7 @@ QString residentMemory() {
 MainWindow::MainWindow(Session& session, bool freshLayout)
     : session_(session),
       viewport_(new Viewport(session)),
+      lightHandles_(new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
       message_(new MessageBar(viewport_)),
       strip_(new WorkflowStrip),
       fileLabel_(new QLabel),
@@ -53,6 +55,7 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       hintLabel_(new QLabel) {
   setObjectName(QStringLiteral("studio"));
   setCentralWidget(viewport_);
+  viewport_->addManipulator(lightHandles_);
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   makeDocks();
@@ -136,7 +139,7 @@ void MainWindow::resetLayout() {
   docks_[kJobs]->raise();
   resizeDocks({docks_[kScene], docks_[kMaterial]}, {kLeftWidth, kRightWidth}, Qt::Horizontal);
   resizeDocks({docks_[kScene], docks_[kLight], docks_[kJobs]}, {180, 468, 200}, Qt::Vertical);
-  resizeDocks({docks_[kMaterial], docks_[kTransfer]}, {274, 574}, Qt::Vertical);
+  resizeDocks({docks_[kMaterial], docks_[kTransfer]}, {500, 348}, Qt::Vertical);
 }
 
 void MainWindow::makeMenus() {
@@ -185,6 +188,10 @@ void MainWindow::makeViewMenu() {
                   [this] { session_.frameAll(); });
   menu->addAction(icon(QStringLiteral("go-home")), tr("&Reset view"), QKeySequence(Qt::Key_R), this,
                   [this] { session_.view().reset(); });
+  QAction* handles = menu->addAction(tr("&Light handles"), QKeySequence(Qt::Key_L), lightHandles_, &Manipulator::setEnabled);
+  handles->setCheckable(true);
+  handles->setChecked(lightHandles_->enabled());
+  handles->setObjectName(QStringLiteral("lightHandles"));
   menu->addSeparator();
   for (QDockWidget* dock : docks_) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
@@ -257,6 +264,7 @@ void MainWindow::showKeys() {
       "<tr><td>the same with <b>Shift</b></td><td>pan</td></tr>"
       "<tr><td><b>Wheel</b></td><td>zoom towards the pointer</td></tr>"
       "<tr><td><b>F</b>, <b>R</b></td><td>frame all, reset the view</td></tr>"
+      "<tr><td><b>Drag a light, its rim</b></td><td>move it around the model, resize it; <b>L</b> hides the handles</td></tr>"
       "<tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>"
       "<tr><td><b>Drag a number</b></td><td>scrub; Shift fine, Ctrl coarse; double click resets</td></tr>"
       "<tr><td><b>Drop a file</b></td><td>mesh, project, HDR</td></tr></table>"));

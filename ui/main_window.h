@@ -7,6 +7,7 @@ class QLabel;
 
 namespace prt::ui {
 
+class LightHandles;
 class MessageBar;
 class Session;
 class Viewport;
@@ -18,6 +19,7 @@ class MainWindow : public QMainWindow {
   MainWindow(Session& session, bool freshLayout);
 
   Viewport& viewport() { return *viewport_; }
+  LightHandles& lightHandles() { return *lightHandles_; }
   MessageBar& messageBar() { return *message_; }
   void resetLayout();
 
@@ -42,6 +44,7 @@ class MainWindow : public QMainWindow {
 
   Session& session_;
   Viewport* viewport_;
+  LightHandles* lightHandles_;
   MessageBar* message_;
   class WorkflowStrip* strip_;
   QLabel* fileLabel_;

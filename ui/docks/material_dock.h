@@ -1,12 +1,18 @@
 #pragma once
-// The material of the selected object, one row per parameter of the recipe.
+// The material of the selected object: presets, one row per parameter of the recipe, the lobe as a plot, and
+// a word when it reflects more than it gets.
 
+#include "ui/model/material_editor.h"
 #include "ui/widgets/section.h"
 
 class QComboBox;
+class QFrame;
+class QLabel;
 
 namespace prt::ui {
 
+class LobePlot;
+class PresetGrid;
 class Session;
 
 class MaterialDock : public DockColumn {
@@ -14,13 +20,28 @@ class MaterialDock : public DockColumn {
  public:
   explicit MaterialDock(Session& session, QWidget* parent = nullptr);
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
+  QWidget* makeHead();
+  Section* makePresets();
+  QFrame* makeWarning();
   void showObject(int object);
   void refreshObjects();
+  void refreshMaterial();
+  void makePictures();
 
   Session& session_;
+  MaterialEditor editor_;
   QComboBox* objects_;
-  QWidget* rows_ = nullptr;
+  PresetGrid* presets_;
+  QFrame* warning_;
+  QLabel* warningText_;
+  Section* reflection_;
+  QWidget* rows_ = nullptr;  // of the object that is shown
+  LobePlot* plot_;
+  bool picturesWanted_ = false;
 };
 
 }  // namespace prt::ui

@@ -60,8 +60,18 @@ void Document::endGesture() {
   if (gestureDepth_ == 0 || --gestureDepth_ > 0) return;
   const Recipe before = std::move(*gestureStart_);
   gestureStart_.reset();
+  if (before != recipe_) remember(gestureName_, before);
+  Q_EMIT stateChanged();
+}
+
+void Document::cancelGesture() {
+  if (!inGesture()) return;
+  gestureDepth_ = 0;
+  const Recipe before = std::move(*gestureStart_);
+  gestureStart_.reset();
   if (before == recipe_) return;
-  remember(gestureName_, before);
+  recipe_ = before;
+  Q_EMIT recipeChanged();
   Q_EMIT stateChanged();
 }
 

@@ -43,6 +43,8 @@ class Document : public QObject {
   /// Everything edited between the two is one step of undo (a drag, a scrub). They nest.
   void beginGesture(const QString& name);
   void endGesture();
+  /// Ends all gestures and takes back what was edited in them: Esc during a drag.
+  void cancelGesture();
   bool inGesture() const { return gestureDepth_ > 0; }
 
   bool canUndo() const { return !undo_.empty(); }

@@ -1,6 +1,7 @@
 #include "ui/model/session.h"
 
 #include "libprt/basis/sh.h"
+#include "libprt/light/built_in_skies.h"
 #include "libprt/core/error.h"
 #include "libprt/light/projection.h"
 #include "libprt/project/lights.h"
@@ -50,6 +51,7 @@ struct Session::Opened {
 Session::Session(QObject* parent)
     : QObject(parent), bakes_(jobs_), environments_(std::make_shared<EnvironmentCache>()) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
+  connect(&document_, &Document::stateChanged, this, &Session::finishSky);
   connect(&bakes_, &BakeController::productArrived, this, &Session::take);
   connect(&bakes_, &BakeController::changed, this, &Session::statusChanged);
   connect(&bakes_, &BakeController::failed, this,
@@ -113,18 +115,10 @@ void Session::adopt(const Opened& opened) {
 
 void Session::openEnvironment(const QString& path) {
   const QString file = QFileInfo(path).absoluteFilePath();
-  startEnvironment(LightRecipe{.path = file.toStdString()}, [this, file] {
-    Recipe next = document_.recipe();
-    int index = environmentIndex();
-    if (index < 0) {
-      index = int(next.lights.size());
-      next.lights.push_back({});
-    }
-    LightRecipe& light = next.lights[std::size_t(index)];
-    light.path = file.toStdString();
-    light.mapping = "auto";
-    environmentShown_ = keyOf(light);  // it is there already
-    document_.edit(tr("Load environment"), next);
+  const LightRecipe light{.path = file.toStdString()};
+  startEnvironment(light, [this, file, light] {
+    environmentShown_ = mapKey(light);  // it is there already
+    lights_.setEnvironment(file);
   });
 }
 
@@ -160,20 +154,13 @@ void Session::save(const QString& path) {
 
 // ---- the light ----
 
-int Session::environmentIndex() const {
-  const auto& lights = document_.recipe().lights;
-  const auto found = std::find_if(lights.begin(), lights.end(),
-                                  [](const LightRecipe& l) { return l.kind == LightKind::Environment; });
-  return found == lights.end() ? -1 : int(found - lights.begin());
-}
-
 double Session::environmentAngle() const {
-  const int index = environmentIndex();
+  const int index = lights_.environment();
   return index < 0 ? 0 : double(document_.recipe().lights[std::size_t(index)].rotation);
 }
 
 void Session::setEnvironmentAngle(double degrees) {
-  const int index = environmentIndex();
+  const int index = lights_.environment();
   if (index < 0) return;
   Recipe next = document_.recipe();
   next.lights[std::size_t(index)].rotation = float(std::remainder(degrees, 360.0));
@@ -181,12 +168,23 @@ void Session::setEnvironmentAngle(double degrees) {
 }
 
 QString Session::environmentFile() const {
-  const int index = environmentIndex();
+  const int index = lights_.environment();
   return index < 0 ? QString() : QString::fromStdString(document_.recipe().lights[std::size_t(index)].path);
 }
 
-QString Session::keyOf(const LightRecipe& light) {
-  return QString::fromStdString(light.path + "\n" + light.mapping);
+QString Session::absolutePath(const LightRecipe& light) const {
+  const QString path = QString::fromStdString(light.path);
+  return isBuiltin(light.path) ? path : QString::fromStdString((folder() / light.path).lexically_normal().string());
+}
+
+QString Session::environmentPath() const {
+  const int index = lights_.environment();
+  return index < 0 ? QString() : absolutePath(document_.recipe().lights[std::size_t(index)]);
+}
+
+void Session::useEnvironment(const QString& path) {
+  if (path.startsWith(u"builtin:")) lights_.setEnvironment(path);
+  else openEnvironment(path);
 }
 
 // Reads a map and its coefficients behind the interface, then shows it; `loaded` runs right before.
@@ -197,13 +195,16 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
   };
   auto result = std::make_shared<Result>();
   const auto work = [result, light, folder = folder(), cache = environments_](Job& job) {
-    result->map = cache->get(light.path, light.mapping, folder);
+    result->map = cache->get(light, folder);
     result->coefficients = projectEnvironment(*result->map, kLightBands, job);
   };
-  const auto finish = [this, result, loaded = std::move(loaded)](const JobInfo& job) {
+  const auto finish = [this, result, light, loaded = std::move(loaded)](const JobInfo& job) {
     if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Light);
     if (job.state != JobState::Done) return;
     loaded();
+    if (environmentShown_ != mapKey(light)) return;  // another one is wanted by now
+    environmentExact_ = true;
+    probes_.note(absolutePath(light));
     relighter_.setEnvironment(result->map, result->coefficients);
     const std::string warning = result->map->report().warning();
     if (!warning.empty()) report(Severity::Warning, QString::fromStdString(warning), Place::Light);
@@ -212,30 +213,49 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
 }
 
 void Session::applyLights() {
-  const int index = environmentIndex();
+  const int index = lights_.environment();
   std::vector<LightRecipe> others;
   for (const LightRecipe& light : document_.recipe().lights)
     if (light.kind != LightKind::Environment) others.push_back(light);
   EnvironmentCache none;
   LightRig rig = makeLightRig(others, {}, none);
-  QString key;
-  if (index >= 0) {
-    const LightRecipe& light = document_.recipe().lights[std::size_t(index)];
-    rig.rotation = float(radians(light.rotation));
-    rig.intensity = light.intensity;
-    key = keyOf(light);
+  if (index < 0) {
+    relighter_.setLights(rig, document_.recipe().method);
+    if (!std::exchange(environmentShown_, {}).empty()) relighter_.setEnvironment(nullptr, {});
+    return;
   }
+  const LightRecipe& light = document_.recipe().lights[std::size_t(index)];
+  rig.rotation = float(radians(light.rotation));
+  rig.intensity = light.on ? light.intensity : 0;
   relighter_.setLights(rig, document_.recipe().method);
-  if (key == environmentShown_) return;
-  environmentShown_ = key;
-  if (index < 0) relighter_.setEnvironment(nullptr, {});
-  else startEnvironment(document_.recipe().lights[std::size_t(index)], [] {});
+  if (std::exchange(environmentShown_, mapKey(light)) == mapKey(light)) return;
+  if (!hasSun(light)) return startEnvironment(light, [] {});
+  showQuickSky(light);
+  finishSky();
+}
+
+// A sun that is dragged moves at once; the sky in full follows when it rests.
+void Session::showQuickSky(const LightRecipe& light) {
+  QuickSky sky = quickClearSky(clearSkyOf(light), kLightBands);
+  environmentExact_ = false;
+  skyJobKey_.clear();
+  relighter_.setEnvironment(std::make_shared<EnvironmentMap>(std::move(sky.map)), std::move(sky.coefficients));
+}
+
+void Session::finishSky() {
+  if (environmentExact_ || document_.inGesture() || skyJobKey_ == environmentShown_) return;
+  skyJobKey_ = environmentShown_;
+  startEnvironment(document_.recipe().lights[std::size_t(lights_.environment())], [] {});
 }
 
 // ---- what follows from an edit ----
 
 void Session::follow() {
   applyLights();
+  QStringList environments;
+  for (const LightRecipe& light : document_.recipe().lights)
+    if (light.kind == LightKind::Environment) environments << absolutePath(light);
+  probes_.setProject(environments);
   applyMaterials();
   bakes_.setRecipe(document_.recipe());
   Q_EMIT statusChanged();

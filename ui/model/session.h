@@ -6,8 +6,11 @@
 #include "ui/model/bake_controller.h"
 #include "ui/model/document.h"
 #include "ui/model/job_runner.h"
+#include "ui/model/light_editor.h"
 #include "ui/model/log.h"
+#include "ui/model/probe_library.h"
 #include "ui/model/relighter.h"
+#include "ui/model/scene_rays.h"
 #include "ui/model/view_state.h"
 
 #include <QObject>
@@ -39,6 +42,9 @@ class Session : public QObject {
   ~Session() override;
 
   Document& document() { return document_; }
+  LightEditor& lights() { return lights_; }
+  ProbeLibrary& probes() { return probes_; }
+  const SceneRays& rays() const { return rays_; }
   ViewState& view() { return view_; }
   JobRunner& jobs() { return jobs_; }
   Relighter& relighter() { return relighter_; }
@@ -61,9 +67,15 @@ class Session : public QObject {
   /// Degrees, counter-clockwise seen from above; of the first environment light.
   double environmentAngle() const;
   void setEnvironmentAngle(double degrees);
-  bool hasEnvironment() const { return environmentIndex() >= 0; }
+  bool hasEnvironment() const { return lights_.environment() >= 0; }
+  /// False while the map on screen is a coarse one that follows a dragged sun.
+  bool environmentExact() const { return environmentExact_; }
+  /// Makes a file or "builtin:NAME" the environment; a file only once it could be read.
+  void useEnvironment(const QString& path);
   /// File or built-in name of the environment; empty when there is none.
   QString environmentFile() const;
+  /// The same as an absolute path, as ProbeLibrary knows it.
+  QString environmentPath() const;
 
   int selectedObject() const { return selectedObject_; }
   void selectObject(int index);
@@ -88,11 +100,12 @@ class Session : public QObject {
   struct Opened;
 
   static void readProject(const QString& path, Opened& opened, Job& job);
-  static QString keyOf(const LightRecipe& light);
   void adopt(const Opened& opened);
   void openEnvironment(const QString& path);
+  QString absolutePath(const LightRecipe& light) const;
   void startEnvironment(const LightRecipe& light, std::function<void()> loaded);
-  int environmentIndex() const;
+  void showQuickSky(const LightRecipe& light);
+  void finishSky();
   std::filesystem::path folder() const;
   void follow();
   void applyLights();
@@ -101,16 +114,21 @@ class Session : public QObject {
   void showFirst();
 
   Document document_;
+  LightEditor lights_{document_};
   ViewState view_;
   Log log_;
   Relighter relighter_;
   JobRunner jobs_;
   BakeController bakes_;
+  ProbeLibrary probes_{jobs_};
+  SceneRays rays_{relighter_, jobs_};
   std::shared_ptr<EnvironmentCache> environments_;  // used by one job at a time
   bool opening_ = false;
   bool frameNext_ = false;  // the next scene is a new one: show all of it
   int selectedObject_ = 0;
-  QString environmentShown_;  // path and mapping of the map that is loaded or on its way
+  std::string environmentShown_;  // key of the map that is loaded or on its way
+  bool environmentExact_ = true;
+  std::string skyJobKey_;  // of the exact sky that is on its way
   QStringList meshReports_;
   int level_ = 0, levels_ = 0;
   std::optional<double> estimatedError_;

@@ -3,6 +3,7 @@
 #include "ui/model/session.h"
 #include "ui/viewport/cpu_canvas.h"
 #include "ui/viewport/gl_canvas.h"
+#include "ui/viewport/manipulator.h"
 #include "ui/viewport/overlay.h"
 
 #include <QContextMenuEvent>
@@ -12,6 +13,8 @@
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
+
+#include <utility>
 
 namespace prt::ui {
 
@@ -24,6 +27,7 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
   setObjectName(QStringLiteral("viewport"));
   setFocusPolicy(Qt::StrongFocus);
   setAcceptDrops(true);
+  setMouseTracking(true);
   setMinimumSize(320, 240);
   settle_.setSingleShot(true);
   settle_.setInterval(kSettleMilliseconds);
@@ -39,7 +43,7 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
 void Viewport::chooseCanvas() {
   if (!GlCanvas::available()) return useCpu(tr("this machine has no OpenGL 4.5"));
   auto* canvas = new GlCanvas({session_.relighter(), session_.view(),
-                               [this](QPainter& p) { paintOverlay(p, size(), session_, *canvas_); }}, this);
+                               [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
   connect(canvas, &GlCanvas::failed, this, [this](const QString& message) { useCpu(message); }, Qt::QueuedConnection);
 }
@@ -47,7 +51,7 @@ void Viewport::chooseCanvas() {
 void Viewport::useCpu(const QString& why) {
   if (canvas_) canvas_->widget()->deleteLater();
   auto* canvas = new CpuCanvas({session_.relighter(), session_.view(),
-                                [this](QPainter& p) { paintOverlay(p, size(), session_, *canvas_); }}, this);
+                                [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
   canvas->setGeometry(rect());
   canvas->show();
@@ -61,6 +65,8 @@ QString Viewport::hint() const {
     case Drag::TurnLight: return tr("Turning the environment: %1\u00b0").arg(session_.environmentAngle(), 0, 'f', 1);
     case Drag::None: break;
   }
+  for (const Manipulator* each : {held_, hovered_})
+    if (each && !each->hint().isEmpty()) return each->hint();
   return tr("Shift+drag turns the light   \u00b7   Alt+drag or middle orbits   \u00b7   +Shift pans   \u00b7   "
             "wheel zooms   \u00b7   F frames   \u00b7   R resets");
 }
@@ -76,7 +82,7 @@ Viewport::Drag Viewport::dragOf(Qt::MouseButton button, Qt::KeyboardModifiers mo
 
 void Viewport::mousePressEvent(QMouseEvent* event) {
   setFocus();
-  if (drag_ != Drag::None) return;
+  if (drag_ != Drag::None || held_ || pressManipulator(event)) return;
   drag_ = dragOf(event->button(), event->modifiers());
   if (drag_ == Drag::None) return;
   dragButton_ = event->button();
@@ -87,7 +93,13 @@ void Viewport::mousePressEvent(QMouseEvent* event) {
 }
 
 void Viewport::mouseMoveEvent(QMouseEvent* event) {
-  if (drag_ == Drag::None) return;
+  if (held_) {
+    held_->move(event->position(), event->modifiers(), {session_.view().camera(), size()});
+    interact();
+    Q_EMIT hintChanged(hint());
+    return;
+  }
+  if (drag_ == Drag::None) return hoverManipulators(event->position());
   const QPointF moved = event->position() - last_;
   last_ = event->position();
   const float scale = 1.0f / float(height());
@@ -100,10 +112,81 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
+  if (held_ && event->button() == Qt::LeftButton) return letGo(true, event->position());
   if (event->button() == dragButton_) endDrag();
 }
 
-void Viewport::focusOutEvent(QFocusEvent*) { endDrag(); }
+void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
+  const ViewGeometry view(session_.view().camera(), size());
+  for (Manipulator* each : manipulators_)
+    if (event->button() == Qt::LeftButton && each->enabled() && each->doubleClick(event->position(), view)) return;
+  mousePressEvent(event);
+}
+
+void Viewport::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape && held_) return letGo(false);
+  QWidget::keyPressEvent(event);
+}
+
+void Viewport::leaveEvent(QEvent*) { hoverManipulators({}); }
+
+void Viewport::focusOutEvent(QFocusEvent*) {
+  letGo(false);
+  endDrag();
+}
+
+// ---- manipulators ----
+
+void Viewport::addManipulator(Manipulator* manipulator) {
+  manipulator->setParent(this);
+  manipulators_.push_back(manipulator);
+  connect(manipulator, &Manipulator::changed, this, &Viewport::refresh);
+}
+
+void Viewport::paintOver(QPainter& painter) {
+  const ViewGeometry view(session_.view().camera(), size());
+  if (session_.relighter().scene())
+    for (Manipulator* each : manipulators_)
+      if (each->enabled()) each->paint(painter, view);
+  paintOverlay(painter, size(), session_, *canvas_);
+}
+
+bool Viewport::pressManipulator(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton || event->modifiers() & Qt::AltModifier) return false;
+  const ViewGeometry view(session_.view().camera(), size());
+  for (Manipulator* each : manipulators_) {
+    if (!each->enabled() || !each->press(event->position(), event->modifiers(), view)) continue;
+    held_ = each;
+    setCursor(each->cursor());
+    Q_EMIT hintChanged(hint());
+    return true;
+  }
+  return false;
+}
+
+void Viewport::hoverManipulators(std::optional<QPointF> at) {
+  const ViewGeometry view(session_.view().camera(), size());
+  Manipulator* taken = nullptr;
+  for (Manipulator* each : manipulators_)
+    if (each->hover(taken || !each->enabled() ? std::nullopt : at, view)) taken = each;
+  const bool same = taken == hovered_ && !taken;
+  hovered_ = taken;
+  if (same) return;
+  if (taken) setCursor(taken->cursor());
+  else unsetCursor();
+  Q_EMIT hintChanged(hint());
+}
+
+// The held manipulator's drag is over: kept, or taken back.
+void Viewport::letGo(bool keep, const QPointF& at) {
+  if (!held_) return;
+  Manipulator* held = std::exchange(held_, nullptr);
+  if (keep) held->release(at, {session_.view().camera(), size()});
+  else held->cancel();
+  settle_.start();
+  hoverManipulators(keep ? std::optional(at) : std::nullopt);
+  Q_EMIT hintChanged(hint());
+}
 
 void Viewport::endDrag() {
   if (drag_ == Drag::None) return;

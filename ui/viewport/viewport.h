@@ -3,7 +3,8 @@
 //   Alt + left or middle drag   orbit        wheel         zoom towards the pointer
 //   ... with Shift              pan          F, R          frame all, reset the view
 //   Shift + left or right drag  turns the environment
-// Files dropped on it are opened.
+// Manipulators take the left button first where the pointer is over something of theirs. Files dropped on it are
+// opened.
 
 #include "ui/viewport/canvas.h"
 
@@ -11,8 +12,12 @@
 #include <QTimer>
 #include <QWidget>
 
+#include <optional>
+#include <vector>
+
 namespace prt::ui {
 
+class Manipulator;
 class Session;
 
 class Viewport : public QWidget {
@@ -21,6 +26,8 @@ class Viewport : public QWidget {
   explicit Viewport(Session& session, QWidget* parent = nullptr);
 
   Canvas& canvas() { return *canvas_; }
+  /// Paints it over the picture and asks it before navigating; becomes its parent.
+  void addManipulator(Manipulator* manipulator);
   /// What the mouse does here, for the status bar.
   QString hint() const;
   QSize sizeHint() const override { return {960, 720}; }
@@ -33,7 +40,10 @@ class Viewport : public QWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent*) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -46,12 +56,19 @@ class Viewport : public QWidget {
   void useCpu(const QString& why);
   Drag dragOf(Qt::MouseButton button, Qt::KeyboardModifiers modifiers) const;
   void endDrag();
+  void paintOver(QPainter& painter);
+  bool pressManipulator(QMouseEvent* event);
+  void hoverManipulators(std::optional<QPointF> at);
+  void letGo(bool keep, const QPointF& at = {});
   void turnLight(float pixels);
   void interact();
   void refresh();
 
   Session& session_;
   Canvas* canvas_ = nullptr;  // a child widget
+  std::vector<Manipulator*> manipulators_;
+  Manipulator* held_ = nullptr;     // has the left button
+  Manipulator* hovered_ = nullptr;  // would take it
   Drag drag_ = Drag::None;
   Qt::MouseButton dragButton_ = Qt::NoButton;
   QPointF last_;

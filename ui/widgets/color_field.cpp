@@ -17,18 +17,23 @@ namespace prt::ui {
 
 namespace {
 constexpr int kSquare = 160, kStrip = 16, kMargin = 8;
-}
+constexpr double kBrightest = 1e9;  // of light, as in the recipe's table
+
+float brightness(const Rgb& c) { return std::max({c.x, c.y, c.z, 1.0f}); }
+}  // namespace
 
 QColor toScreen(const Rgb& c) {
   const auto channel = [](float v) { return encodeSrgb(std::clamp(v, 0.0f, 1.0f)); };
   return QColor::fromRgbF(channel(c.x), channel(c.y), channel(c.z));
 }
 
+QColor toScreenScaled(const Rgb& light) { return toScreen(light / brightness(light)); }
+
 Rgb fromScreen(const QColor& c) {
   return {decodeSrgb(float(c.redF())), decodeSrgb(float(c.greenF())), decodeSrgb(float(c.blueF()))};
 }
 
-ColorField::ColorField(QWidget* parent) : QWidget(parent) {
+ColorField::ColorField(Kind kind, QWidget* parent) : QWidget(parent), kind_(kind) {
   setFocusPolicy(Qt::StrongFocus);
   setCursor(Qt::PointingHandCursor);
   setFixedHeight(kRowHeight - 2);
@@ -39,7 +44,7 @@ QSize ColorField::sizeHint() const { return {96, kRowHeight - 2}; }
 
 void ColorField::setColor(const Rgb& color) {
   color_ = color;
-  setAccessibleName(toScreen(color).name());
+  setAccessibleName(toScreenScaled(color).name());
   if (picker_) picker_->setColor(color);
   update();
 }
@@ -60,7 +65,7 @@ void ColorField::paintEvent(QPaintEvent*) {
   painter.setBrush(underMouse() ? t.fieldHover : t.field);
   painter.drawRoundedRect(box, 3, 3);
   painter.setPen(t.line);
-  painter.setBrush(toScreen(color_));
+  painter.setBrush(toScreenScaled(color_));
   painter.drawRoundedRect(box.adjusted(3, 3, -(box.width() - 27), -3), 2, 2);
   painter.setPen(t.text);
   const QString numbers = QStringLiteral("%1 %2 %3").arg(formatNumber(color_.x, 2), formatNumber(color_.y, 2),
@@ -79,7 +84,7 @@ void ColorField::keyPressEvent(QKeyEvent* event) {
 
 void ColorField::openPicker() {
   if (!picker_) {
-    picker_ = new ColorPicker(this);
+    picker_ = new ColorPicker(kind_, this);
     connect(picker_, &ColorPicker::picked, this, &ColorField::change);
     connect(picker_, &ColorPicker::gestureBegan, this, &ColorField::gestureBegan);
     connect(picker_, &ColorPicker::gestureEnded, this, &ColorField::gestureEnded);
@@ -90,15 +95,16 @@ void ColorField::openPicker() {
   picker_->show();
 }
 
-ColorPicker::ColorPicker(QWidget* parent) : QWidget(parent, Qt::Popup) {
+ColorPicker::ColorPicker(ColorField::Kind kind, QWidget* parent) : QWidget(parent, Qt::Popup), kind_(kind) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(kMargin, kSquare + 2 * kMargin, kMargin, kMargin);
   grid->setSpacing(2);
+  const bool light = kind_ == ColorField::Kind::Light;
   const QString names[] = {tr("Red"), tr("Green"), tr("Blue")};
   for (int i = 0; i < 3; ++i) {
     auto* label = new QLabel(names[i]);
     setRole(label, "muted");
-    numbers_[i] = new NumberField({.low = 0, .high = 1, .decimals = 3, .unit = {}});
+    numbers_[i] = new NumberField({.low = 0, .high = light ? kBrightest : 1, .decimals = 3, .unit = {}});
     grid->addWidget(label, i, 0);
     grid->addWidget(numbers_[i], i, 1);
     connect(numbers_[i], &NumberField::edited, this, [this] {
@@ -118,7 +124,8 @@ QRect ColorPicker::strip() const { return {2 * kMargin + kSquare, kMargin, kStri
 void ColorPicker::setColor(const Rgb& color) {
   if (dragged_ == Part::None) {
     float hue, saturation, value;
-    toScreen(color).getHsvF(&hue, &saturation, &value);
+    scale_ = brightness(color);
+    toScreenScaled(color).getHsvF(&hue, &saturation, &value);
     if (hue >= 0 && saturation > 0) hue_ = hue;  // grey has no hue: keep the one chosen
     saturation_ = saturation;
     value_ = value;
@@ -179,7 +186,7 @@ void ColorPicker::drag(const QPointF& at) {
   const float y = std::clamp(float(at.y() - square().top()) / kSquare, 0.0f, 1.0f);
   if (dragged_ == Part::Strip) hue_ = std::min(y, 0.9999f);
   else saturation_ = x, value_ = 1 - y;
-  const Rgb color = fromScreen(QColor::fromHsvF(hue_, saturation_, value_));
+  const Rgb color = scale_ * fromScreen(QColor::fromHsvF(hue_, saturation_, value_));
   showNumbers(color);
   update();
   Q_EMIT picked(color);

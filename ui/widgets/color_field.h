@@ -1,6 +1,7 @@
 #pragma once
 // A colour as a swatch with its numbers; a click opens a small picker under it. Colours are linear
-// Rec.709 reflectances in 0..1; the swatch shows them as the screen does.
+// Rec.709: reflectances in 0..1, or light, whose brightness has no limit; the swatch shows them as the screen does,
+// light at the brightness of its largest channel.
 
 #include "libprt/core/math.h"
 
@@ -13,12 +14,15 @@ class NumberField;
 
 /// What a screen shows for a linear colour, and back.
 QColor toScreen(const Rgb& linear);
+/// The same for light: scaled down until nothing is above 1.
+QColor toScreenScaled(const Rgb& light);
 Rgb fromScreen(const QColor& color);
 
 class ColorField : public QWidget {
   Q_OBJECT
  public:
-  explicit ColorField(QWidget* parent = nullptr);
+  enum class Kind { Reflectance, Light };
+  explicit ColorField(Kind kind = Kind::Reflectance, QWidget* parent = nullptr);
 
   const Rgb& color() const { return color_; }
   /// Shows a colour; says nothing.
@@ -41,15 +45,17 @@ class ColorField : public QWidget {
  private:
   void change(const Rgb& color);
 
+  Kind kind_;
   Rgb color_{0.5f};
   class ColorPicker* picker_ = nullptr;
 };
 
-/// Saturation and value as a square, hue as a strip, and the three linear numbers.
+/// Saturation and value as a square, hue as a strip, and the three linear numbers. Of light, the square chooses the
+/// tint and keeps the brightness: the upper edge is the light's largest channel.
 class ColorPicker : public QWidget {
   Q_OBJECT
  public:
-  explicit ColorPicker(QWidget* parent);
+  ColorPicker(ColorField::Kind kind, QWidget* parent);
   void setColor(const Rgb& color);
 
  Q_SIGNALS:
@@ -69,6 +75,8 @@ class ColorPicker : public QWidget {
   void drag(const QPointF& at);
   void showNumbers(const Rgb& color);
 
+  ColorField::Kind kind_;
+  float scale_ = 1;  // of light: what the square's white stands for
   float hue_ = 0, saturation_ = 0, value_ = 0.5f;
   enum class Part { None, Square, Strip } dragged_ = Part::None;
   NumberField* numbers_[3];

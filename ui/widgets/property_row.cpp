@@ -161,7 +161,7 @@ QWidget* PropertyRow::makeNumber() {
 }
 
 QWidget* PropertyRow::makeColor() {
-  auto* field = new ColorField;
+  auto* field = new ColorField(parameter_.high > 1 ? ColorField::Kind::Light : ColorField::Kind::Reflectance);
   connect(field, &ColorField::edited, this, [this](const Rgb& c) { apply(jsonText(nlohmann::json{c.x, c.y, c.z})); });
   connect(field, &ColorField::gestureBegan, this, [this] { document_.beginGesture(title_); });
   connect(field, &ColorField::gestureEnded, this, [this] { document_.endGesture(); });

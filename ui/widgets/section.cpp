@@ -31,6 +31,7 @@ Section::Section(const QString& title, QWidget* parent)
   all->addWidget(body_);
 }
 
+void Section::setTitle(const QString& title) { header_->setText(title); }
 void Section::add(QWidget* widget) { rows_->addWidget(widget); }
 void Section::addLayout(QLayout* layout) { rows_->addLayout(layout); }
 bool Section::isOpen() const { return header_->isChecked(); }

@@ -14,6 +14,7 @@ class Section : public QWidget {
  public:
   explicit Section(const QString& title, QWidget* parent = nullptr);
 
+  void setTitle(const QString& title);
   void add(QWidget* widget);
   void addLayout(class QLayout* layout);
   void setOpen(bool open);

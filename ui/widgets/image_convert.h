@@ -1,0 +1,25 @@
+#pragma once
+// From the library's images to Qt's.
+
+#include "libprt/core/image.h"
+
+#include <QImage>
+
+namespace prt::ui {
+
+/// An image that is encoded for the screen already, 0..1; a fourth channel is opacity, not multiplied in.
+inline QImage toQImage(const Image& image) {
+  const bool covers = image.channels == 4;
+  QImage out(image.width, image.height, covers ? QImage::Format_ARGB32 : QImage::Format_RGB32);
+  for (int y = 0; y < image.height; ++y) {
+    auto* row = reinterpret_cast<QRgb*>(out.scanLine(y));
+    for (int x = 0; x < image.width; ++x) {
+      const Rgb c = image.rgb(x, y);
+      const int alpha = covers ? qRound(255 * image.pixel(x, y)[3]) : 255;
+      row[x] = qRgba(qRound(255 * c.x), qRound(255 * c.y), qRound(255 * c.z), alpha);
+    }
+  }
+  return out;
+}
+
+}  // namespace prt::ui
