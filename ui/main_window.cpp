@@ -85,7 +85,14 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   viewport_->setFocus();
 }
 
-QDockWidget* MainWindow::addDock(const QString& title, const QString& name, QWidget* content, Qt::DockWidgetArea area) {
+// A window that is destroyed while it is shown hides its docks when its layout is gone already, and each
+// tells that it is hidden: nobody may ask the layout then which docks share tabs.
+MainWindow::~MainWindow() {
+  for (QDockWidget* dock : docks_) dock->disconnect(this);
+}
+
+QDockWidget* MainWindow::addDock(const QString& title, const QString& name, QWidget* content,
+                                 Qt::DockWidgetArea area) {
   auto* dock = new QDockWidget(title);
   dock->setObjectName(name);
   dock->setWidget(content);
