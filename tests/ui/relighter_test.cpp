@@ -61,6 +61,39 @@ TEST(Relighter, TransferIsAppliedOncePerChange) {
   EXPECT_EQ(relighter.surface().irradiance[0], Rgb(0));
 }
 
+TEST(Relighter, SamplesAndTransferAlwaysFitTogether) {
+  const auto oneSided = sphereScene();
+  Scene copy = *oneSided;
+  copy.materials[0].twoSided = true;
+  const auto twoSided = std::make_shared<const Scene>(copy);
+  const auto front = std::make_shared<const SampleSet>(samplesAtVertices(*oneSided));
+  const auto both = std::make_shared<const SampleSet>(samplesAtVertices(*twoSided));
+  ASSERT_GT(both->size(), front->size());
+  Relighter relighter;
+  LightRig rig;
+  rig.constant = Rgb(1);
+  relighter.setLights(rig);
+  relighter.setScene(oneSided);
+  relighter.setSamples(front);
+  relighter.setTransfer(std::make_shared<const Transfer>(diffuseTransfer(oneSided, front)));
+  EXPECT_EQ(relighter.surface().irradiance.size(), front->size());
+  // In the order of a bake; a picture may be drawn at any time between.
+  relighter.setScene(twoSided);
+  EXPECT_EQ(relighter.surface().irradiance.size(), relighter.samples()->size());
+  relighter.setSamples(both);
+  EXPECT_EQ(relighter.samples(), front) << "until there is transfer for the others";
+  EXPECT_EQ(relighter.surface().irradiance.size(), front->size());
+  const quint64 scene = relighter.sceneVersion();
+  relighter.setTransfer(std::make_shared<const Transfer>(diffuseTransfer(twoSided, both)));
+  EXPECT_EQ(relighter.samples(), both);
+  EXPECT_GT(relighter.sceneVersion(), scene);
+  EXPECT_EQ(relighter.surface().irradiance.size(), both->size());
+  // And back.
+  relighter.setSamples(front);
+  relighter.setTransfer(std::make_shared<const Transfer>(diffuseTransfer(oneSided, front)));
+  EXPECT_EQ(relighter.samples(), front);
+}
+
 TEST(Relighter, TurningTheEnvironmentTurnsItsCoefficients) {
   const auto map = std::make_shared<const EnvironmentMap>(softboxStudio(64, 32));
   Relighter relighter;

@@ -30,6 +30,29 @@ TEST_F(ViewportTest, ShowsTheSceneWithOpenGl) {
   EXPECT_GT(window.viewport().canvas().frameMilliseconds(), 0);
 }
 
+TEST_F(ViewportTest, ATwoSidedMaterialIsDrawnWhileItIsBaked) {
+  openAndSettle();
+  CpuCanvas cpu({session.relighter(), session.view(), [](QPainter&) {}}, nullptr);
+  cpu.resize(64, 48);
+  const auto samples = [this] { return session.relighter().samples()->size(); };
+  const std::size_t oneSided = samples();
+  for (const bool twoSided : {true, false, true}) {
+    Recipe recipe = session.document().recipe();
+    recipe.objects[0].material.twoSided = twoSided;
+    session.document().edit(QStringLiteral("Two-sided"), recipe);
+    EXPECT_FALSE(cpu.grabPicture().isNull()) << "before the bake begins";
+    ASSERT_TRUE(waitFor([&] {
+      picture();
+      cpu.grabPicture();
+      return session.settled() && session.bakes().fresh();
+    }));
+    EXPECT_EQ(samples(), twoSided ? 2 * oneSided : oneSided);
+    EXPECT_TRUE(dynamic_cast<GlCanvas*>(&window.viewport().canvas())) << "OpenGL draws on";
+    EXPECT_FALSE(picture().isNull());
+    EXPECT_FALSE(cpu.grabPicture().isNull());
+  }
+}
+
 TEST_F(ViewportTest, AltDragAndMiddleDragOrbit) {
   openAndSettle();
   const QImage before = picture();

@@ -21,6 +21,7 @@ void Relighter::setScene(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   if (!same) {
     samples_.reset();
+    nextSamples_.reset();
     transfer_.reset();
   }
   materials_ = scene_ ? scene_->materials : std::vector<Material>{};
@@ -31,7 +32,12 @@ void Relighter::setScene(std::shared_ptr<const Scene> scene) {
 }
 
 void Relighter::setSamples(std::shared_ptr<const SampleSet> samples) {
+  nextSamples_.reset();
   if (samples == samples_) return;
+  if (samples && transfer_ && transfer_->samples != samples->size()) {
+    nextSamples_ = std::move(samples);
+    return;
+  }
   samples_ = std::move(samples);
   ++sceneVersion_;
   touchLight();
@@ -39,6 +45,11 @@ void Relighter::setSamples(std::shared_ptr<const SampleSet> samples) {
 
 void Relighter::setTransfer(std::shared_ptr<const Transfer> transfer) {
   if (transfer == transfer_) return;
+  if (transfer && nextSamples_ && transfer->samples == nextSamples_->size()) {
+    samples_ = std::exchange(nextSamples_, nullptr);
+    ++sceneVersion_;
+  }
+  if (transfer && samples_ && transfer->samples != samples_->size()) return;
   transfer_ = std::move(transfer);
   touchLight();
 }

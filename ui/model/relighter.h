@@ -25,7 +25,8 @@ class Relighter : public QObject {
 
   /// A new scene forgets samples and transfer, unless its geometry is the old one's. Null: nothing.
   void setScene(std::shared_ptr<const Scene> scene);
-  /// Where transfer is known: its samples on back sides.
+  /// Where transfer is known: its samples on back sides. When transfer() is there and is not of these, both stay as they
+  /// are until transfer of these arrives: the two always fit together.
   void setSamples(std::shared_ptr<const SampleSet> samples);
   /// Transfer of the scene's vertices; null until there is any: the scene is then lit without shadows.
   void setTransfer(std::shared_ptr<const Transfer> transfer);
@@ -66,7 +67,7 @@ class Relighter : public QObject {
   void apply();
 
   std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const SampleSet> samples_;
+  std::shared_ptr<const SampleSet> samples_, nextSamples_;
   std::shared_ptr<const Transfer> transfer_;
   ShRgb environmentCoefficients_;
   LightRig rig_;

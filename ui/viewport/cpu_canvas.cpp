@@ -55,9 +55,10 @@ QImage CpuCanvas::draw() {
   Transfer unshadowed;
   unshadowed.bands = lit.bands();
   const bool behind = context_.view.background() == BackgroundMode::Environment;
+  const bool baked = lit.transfer() && lit.samples();
   const RenderInput input{.scene = scene_,
-                          .samples = samples_,
-                          .transfer = lit.transfer() ? *lit.transfer() : unshadowed,
+                          .samples = baked ? *lit.samples() : samples_,
+                          .transfer = baked ? *lit.transfer() : unshadowed,
                           .light = lit.light(),
                           .background = behind ? &lit.rig() : nullptr};
   Job patient;

@@ -31,7 +31,7 @@ class CpuCanvas : public QWidget, public Canvas {
   bool interacting_ = false;
   double milliseconds_ = 0;
   Scene scene_;        // with the materials of now
-  SampleSet samples_;
+  SampleSet samples_;  // of the scene, as long as nothing is baked
   quint64 sceneVersion_ = 0, materialVersion_ = 0;
 };
 
