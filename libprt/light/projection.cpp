@@ -197,7 +197,7 @@ EnvironmentMap bandLimitedMap(const ShRgb& light, int width, int height) {
         shEvaluate(light.bands, node.direction, basis);
         for (std::size_t k = 0; k < basis.size(); ++k) sum += node.weight * basis[k] * DRgb(light.c[k]);
       }
-      const Rgb mean = max(Rgb(sum / geometry.solidAngle(x, int(row))), Rgb(0));
+      const Rgb mean(sum / geometry.solidAngle(x, int(row)));
       std::copy_n(&mean.x, 3, image.pixel(x, int(row)));
     }
   });

@@ -32,7 +32,8 @@ BandSpectrum bandSpectrum(const EnvironmentMap& map, const ShRgb& coefficients);
 ShRgb nonNegativeLight(const ShRgb& light);
 
 /// A lat-long map whose pixels hold the mean of `light` over their texel, so that projecting the map
-/// gives `light` back. Values below zero (rounding, when the light is non-negative) become 0.
+/// gives `light` back. Values below zero become 0, and the map's report counts those pixels; when the light
+/// is non-negative that is rounding.
 EnvironmentMap bandLimitedMap(const ShRgb& light, int width, int height);
 
 }  // namespace prt

@@ -54,10 +54,14 @@ ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& f
   map.circles.clear();
   map.directionals.clear();
   writeImage(folder / "environment.exr", latLong(map, 1024, 512));
-  manifest.addFile("environment.exr", "the environment as it is turned, lat-long, top row +Y, centre column -Z");
-  const ShRgb light = nonNegativeLight(lightFor(input.lights, bands, input.recipe.method));
-  writeImage(folder / "light_bands.exr", bandLimitedMap(light, 512, 256).pixels());
-  manifest.addFile("light_bands.exr", "all lights in " + std::to_string(bands) + " bands, windowed to be non-negative");
+  manifest.addFile("environment.exr",
+                   "the environment as it is turned, lat-long, top row +Y, centre column -Z");
+  MethodRecipe method = input.recipe.method;
+  method.window = windowOfPictures(method.window);
+  writeImage(folder / "light_bands.exr",
+             bandLimitedMap(lightFor(input.lights, bands, method), 512, 256).pixels());
+  manifest.addFile("light_bands.exr",
+                   "all lights in " + std::to_string(bands) + " bands through the window " + method.window);
   std::vector<CameraRecipe> cameras = input.recipe.cameras;
   PictureOptions options{960, 540};
   for (const CameraRecipe& camera : cameras) {

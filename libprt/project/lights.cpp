@@ -98,6 +98,10 @@ ShRgb windowed(const ShRgb& light, const std::string& window) {
   return out;
 }
 
+std::string windowOfPictures(const std::string& window) {
+  return window == "none" ? "fejer" : window;
+}
+
 ShRgb lightFor(const LightRig& lights, int bands, const MethodRecipe& method) {
   return windowed(projectLights(lights, bands), method.window);
 }

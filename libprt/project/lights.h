@@ -51,6 +51,10 @@ LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem
 /// Light damped against ringing: "none", "hann", "lanczos", "fejer", or "dering" for as little of the latter
 /// as leaves no negative light. Throws ValueError for other names.
 ShRgb windowed(const ShRgb& light, const std::string& window);
+/// The window of light that is written as a picture, which holds nothing negative: the one that is asked for,
+/// or for "none" the sharpest that leaves no negative light, "fejer". Negative light that "hann" and
+/// "lanczos" leave becomes 0.
+std::string windowOfPictures(const std::string& window);
 
 /// Light in the bands of a transfer product, windowed as the method says.
 ShRgb lightFor(const LightRig& lights, int bands, const MethodRecipe& method);
