@@ -1,6 +1,7 @@
 #include "libprt/project/bake.h"
 
 #include "libprt/core/error.h"
+#include "libprt/core/log.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
 
@@ -15,7 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 bool sameFile(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -60,14 +63,16 @@ std::unique_ptr<ProjectFile> openOutput(const RecipeSource& source, const fs::pa
   if (!fs::is_directory(folderOf(output), error))
     throw FileError("its folder does not exist", output.string(), "make the folder first");
   auto project = ProjectFile::openForWork(output);
-  if (!source.project.empty() && !sameFile(source.project, output)) project->importFrom(*ProjectFile::open(source.project));
+  if (!source.project.empty() && !sameFile(source.project, output))
+    project->importFrom(*ProjectFile::open(source.project));
   return project;
 }
 
 std::vector<BakeSummary::Object> describeObjects(const Recipe& recipe, const MeshProduct& meshes) {
   std::vector<BakeSummary::Object> objects;
   for (std::size_t i = 0; i < meshes.meshes.size(); ++i)
-    objects.push_back({recipe.objects[i].name, meshes.meshes[i]->vertexCount(), meshes.meshes[i]->triangleCount(), meshes.repairText(i)});
+    objects.push_back({recipe.objects[i].name, meshes.meshes[i]->vertexCount(),
+                       meshes.meshes[i]->triangleCount(), meshes.repairText(i)});
   return objects;
 }
 
@@ -80,26 +85,34 @@ BakeSummary::TransferFacts describeTransfer(const Transfer& t) {
 
 std::string toString(TransferForm form) {
   switch (form) {
-    case TransferForm::None: return "none";
-    case TransferForm::Diffuse: return "diffuse";
-    case TransferForm::Visibility: return "visibility";
-    default: return "matrix";
+    case TransferForm::None:
+      return "none";
+    case TransferForm::Diffuse:
+      return "diffuse";
+    case TransferForm::Visibility:
+      return "visibility";
+    default:
+      return "matrix";
   }
 }
 
-BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, Job& job, PipelineListener* listener) {
+BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, Job& job,
+                        PipelineListener* listener) {
   const auto project = openOutput(source, options.output);
   try {
     BakeSummary summary;
     summary.file = options.output;
     summary.resumed = project->resumed();
+    summary.notes = contradictions(source.recipe);
+    for (const std::string& note : summary.notes) logWarning(note);
     Recipe recipe = source.recipe;
     rebasePaths(recipe, source.folder, folderOf(options.output));
     const bool sameRecipe = recipe == project->recipe();
     project->setRecipe(recipe);
     Pipeline pipeline(project.get(), {folderOf(options.output), options.checkpointSeconds});
     Timer timer(listener);
-    const Products products = pipeline.run(recipe, options.stages.empty() ? storedStages() : options.stages, job, &timer);
+    const Products products =
+        pipeline.run(recipe, options.stages.empty() ? storedStages() : options.stages, job, &timer);
     if (project->hasNewWork() || !sameRecipe || !project->saved()) {
       project->keepOnly(pipeline.liveKeys(recipe));
       project->save();
@@ -108,8 +121,10 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
     }
     summary.stages = timer.times;
     summary.bytes = project->bytes();
-    if (const auto meshes = products.get<MeshProduct>("mesh")) summary.objects = describeObjects(recipe, *meshes);
-    if (const auto transfer = products.get<TransferProduct>("transfer")) summary.transfer = describeTransfer(transfer->transfer);
+    if (const auto meshes = products.get<MeshProduct>("mesh"))
+      summary.objects = describeObjects(recipe, *meshes);
+    if (const auto transfer = products.get<TransferProduct>("transfer"))
+      summary.transfer = describeTransfer(transfer->transfer);
     if (const auto floor = products.get<FloorProduct>("floor")) summary.floor = floor->floor;
     return summary;
   } catch (...) {
@@ -121,18 +136,27 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
 nlohmann::json toJson(const BakeSummary& s) {
   nlohmann::json objects = nlohmann::json::array(), stageList = nlohmann::json::array();
   for (const BakeSummary::Object& o : s.objects)
-    objects.push_back({{"name", o.name}, {"vertices", o.vertices}, {"triangles", o.triangles}, {"repair", o.repair}});
+    objects.push_back(
+        {{"name", o.name}, {"vertices", o.vertices}, {"triangles", o.triangles}, {"repair", o.repair}});
   for (const BakeSummary::StageTime& t : s.stages)
     stageList.push_back({{"name", t.name}, {"key", t.key}, {"made", t.made}, {"seconds", t.seconds}});
-  nlohmann::json json{{"file", s.file.string()}, {"bytes", s.bytes}, {"resumed", s.resumed}, {"objects", objects}, {"stages", stageList}};
+  nlohmann::json json{{"file", s.file.string()}, {"bytes", s.bytes},   {"resumed", s.resumed},
+                      {"notes", s.notes},        {"objects", objects}, {"stages", stageList}};
   if (s.transfer) {
     const BakeSummary::TransferFacts& t = *s.transfer;
-    json["transfer"] = {{"form", t.form},       {"bands", t.bands}, {"rays", t.rays},        {"bounces", t.bounces},
-                        {"samples", t.samples}, {"bytes", t.bytes}, {"storage_error", t.storageError}};
+    json["transfer"] = {{"form", t.form},
+                        {"bands", t.bands},
+                        {"rays", t.rays},
+                        {"bounces", t.bounces},
+                        {"samples", t.samples},
+                        {"bytes", t.bytes},
+                        {"storage_error", t.storageError}};
   }
   if (s.floor)
-    json["floor"] = {{"interpolation", s.floor->interpolation}, {"standard_error", s.floor->interpolationError},
-                     {"monte_carlo", s.floor->sampling},        {"total", s.floor->product},
+    json["floor"] = {{"interpolation", s.floor->interpolation},
+                     {"standard_error", s.floor->interpolationError},
+                     {"monte_carlo", s.floor->sampling},
+                     {"total", s.floor->product},
                      {"points", s.floor->points}};
   return json;
 }

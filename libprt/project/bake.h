@@ -16,9 +16,9 @@
 namespace prt {
 
 struct BakeOptions {
-  std::filesystem::path output;      ///< the project; made, or gone on with
-  std::vector<std::string> stages;   ///< what to make; empty = everything
-  double checkpointSeconds = 5;      ///< see Pipeline::Options
+  std::filesystem::path output;     ///< the project; made, or gone on with
+  std::vector<std::string> stages;  ///< what to make; empty = everything
+  double checkpointSeconds = 5;     ///< see Pipeline::Options
 };
 
 /// What a bake did, for people and programs.
@@ -36,16 +36,17 @@ struct BakeSummary {
 
   std::filesystem::path file;
   std::int64_t bytes = 0;
-  bool resumed = false;          ///< work of an earlier bake was gone on with
+  bool resumed = false;            ///< work of an earlier bake was gone on with
+  std::vector<std::string> notes;  ///< contradictions() of the recipe
   std::vector<Object> objects;
   std::vector<StageTime> stages;
   struct TransferFacts {
-    std::string form;            ///< "none", "diffuse", "visibility", "matrix"
+    std::string form;  ///< "none", "diffuse", "visibility", "matrix"
     int bands = 0, rays = 0, bounces = 0;
     std::size_t samples = 0, bytes = 0;
-    double storageError = 0;     ///< relative, of rounding to the storage type
+    double storageError = 0;  ///< relative, of rounding to the storage type
   };
-  std::optional<TransferFacts> transfer;     ///< when it was made or found
+  std::optional<TransferFacts> transfer;  ///< when it was made or found
   std::optional<InterpolationFloor> floor;
 };
 

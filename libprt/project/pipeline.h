@@ -44,12 +44,15 @@ class Products {
 /// Whether two runs would make the same: what `auto` stands for put in its place, and settings that have
 /// no effect (detail of a mesh from a file, exponent of a Lambert surface) at their defaults.
 Recipe resolved(const Recipe& recipe);
+/// What the recipe asks for and does not get because another of its settings excludes it: one line each, for
+/// the user.
+std::vector<std::string> contradictions(const Recipe& recipe);
 
 class Pipeline {
  public:
   struct Options {
     std::filesystem::path folder = ".";  ///< relative paths of the recipe start here
-    double checkpointSeconds = 5;        ///< least time between checkpoints, never over 10 % of a run; 0 = no limit
+    double checkpointSeconds = 5;  ///< least time between checkpoints, never over 10 % of a run; 0 = no limit
   };
 
   /// `store` may be null: nothing outlives this object then. Keeps references to store and table.

@@ -7,11 +7,14 @@
 namespace prt {
 namespace {
 
+bool anyGlossy(const Recipe& recipe) {
+  return std::any_of(recipe.objects.begin(), recipe.objects.end(),
+                     [](const ObjectRecipe& o) { return o.material.glossy(); });
+}
+
 /// The cheapest form that holds what the materials and bounces need.
 TransferKind cheapestKind(const Recipe& recipe) {
-  const bool glossy = std::any_of(recipe.objects.begin(), recipe.objects.end(),
-                                  [](const ObjectRecipe& o) { return o.material.glossy(); });
-  if (!glossy) return TransferKind::Diffuse;
+  if (!anyGlossy(recipe)) return TransferKind::Diffuse;
   return recipe.transfer.bounces == 0 ? TransferKind::Visibility : TransferKind::Matrix;
 }
 
@@ -53,6 +56,21 @@ void resolveMaterial(Material& material) {
 }
 
 }  // namespace
+
+std::vector<std::string> contradictions(const Recipe& recipe) {
+  const TransferRecipe& t = recipe.transfer;
+  std::vector<std::string> lines;
+  if (!t.shadows || t.kind == TransferKind::None) return lines;  // says by itself that there is nothing else
+  if (t.kind == TransferKind::Visibility && t.bounces > 0)
+    lines.push_back("transfer.kind=visibility holds shadows only: the " + std::to_string(t.bounces) +
+                    " bounces of transfer.bounces are left out; use matrix or auto to have them, or set "
+                    "transfer.bounces=0");
+  if (t.kind == TransferKind::Diffuse && anyGlossy(recipe))
+    lines.push_back(
+        "transfer.kind=diffuse shows no highlights: glossy materials are drawn without their specular part; "
+        "use visibility, matrix or auto to have it");
+  return lines;
+}
 
 Recipe resolved(const Recipe& recipe) {
   Recipe out = recipe;

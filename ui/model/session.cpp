@@ -324,10 +324,13 @@ PictureStatus Session::status() const {
 QString Session::transferSummary() const {
   const auto& transfer = relighter_.transfer();
   if (!transfer) return tr("Nothing is baked yet: the surface is lit without shadows.");
-  return tr("Stored per sample: %1. %2 samples, %3 functions, %4 MB.")
-      .arg(nameOf(transfer->form), formatCount(qint64(transfer->samples)))
-      .arg(transfer->functions())
-      .arg(double(transfer->values.bytes.size()) / 1e6, 0, 'f', 1);
+  QString text = tr("Stored per sample: %1. %2 samples, %3 functions, %4 MB.")
+                     .arg(nameOf(transfer->form), formatCount(qint64(transfer->samples)))
+                     .arg(transfer->functions())
+                     .arg(double(transfer->values.bytes.size()) / 1e6, 0, 'f', 1);
+  for (const std::string& line : contradictions(document_.recipe()))
+    text += QStringLiteral("\n\n") + QString::fromStdString(line);
+  return text;
 }
 
 std::filesystem::path Session::folder() const {
