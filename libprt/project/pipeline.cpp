@@ -27,7 +27,8 @@ bool covers(const std::string& section, const std::string& pattern) {
 }
 
 bool coversAny(const std::vector<std::string>& sections, const std::string& pattern) {
-  return std::any_of(sections.begin(), sections.end(), [&](const std::string& s) { return covers(s, pattern); });
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const std::string& s) { return covers(s, pattern); });
 }
 
 const Stage& stageNamed(const std::vector<Stage>& table, const std::string& name) {
@@ -57,12 +58,18 @@ std::string keyOf(const Stage& stage, const Recipe& recipe, const std::vector<Va
 class PipelineRun {
  public:
   PipelineRun(Pipeline& pipeline, const Recipe& recipe, Job& job, PipelineListener* listener)
-      : pipeline_(pipeline), recipe_(resolved(recipe)), job_(job), listener_(listener), values_(readValues()) {
+      : pipeline_(pipeline),
+        recipe_(resolved(recipe)),
+        job_(job),
+        listener_(listener),
+        values_(readValues()) {
     for (const Stage& stage : table()) keys_[stage.name] = keyOf(stage, recipe_, values_, keys_, {});
   }
 
   const std::map<std::string, std::string>& keys() const { return keys_; }
-  std::string checkpointKey(const Stage& stage) const { return keyOf(stage, recipe_, values_, keys_, stage.extends); }
+  std::string checkpointKey(const Stage& stage) const {
+    return keyOf(stage, recipe_, values_, keys_, stage.extends);
+  }
 
   Products make(const std::vector<std::string>& targets) {
     for (const std::string& target : targets) wanted_.insert(stageNamed(table(), target).name);
@@ -112,11 +119,15 @@ class PipelineRun::Run : public StageRun {
   }
 
   const Recipe& recipe() const override { return run_.recipe_; }
-  std::filesystem::path file(const std::string& path) const override { return run_.pipeline_.options_.folder / path; }
+  std::filesystem::path file(const std::string& path) const override {
+    return run_.pipeline_.options_.folder / path;
+  }
   Job& job() override { return run_.job_; }
   const ProductState& inputState(const std::string& stage) const override { return run_.states_.at(stage); }
   bool fromPreview() const override { return previewing_; }
-  bool wantsPreviews() const override { return run_.listener_ && run_.listener_->wantsPreviews() && !previewing_; }
+  bool wantsPreviews() const override {
+    return run_.listener_ && run_.listener_->wantsPreviews() && !previewing_;
+  }
 
   void preview(ProductPtr product, int level, int levels) override {
     if (previewing_) return;
@@ -126,7 +137,9 @@ class PipelineRun::Run : public StageRun {
 
   std::unique_ptr<ProductData> checkpoint() const override {
     ProductStore* store = run_.pipeline_.store_;
-    return store && !previewing_ ? store->findCheckpoint(stage_.name, checkpointKey_) : nullptr;
+    auto saved = store && !previewing_ ? store->findCheckpoint(stage_.name, checkpointKey_) : nullptr;
+    stored_ = stored_ || saved;
+    return saved;
   }
 
   bool checkpointDue() const override {
@@ -143,6 +156,12 @@ class PipelineRun::Run : public StageRun {
     store->putCheckpoint(stage_.name, checkpointKey_, save());
     written_ = Clock::now();
     cost_ = written_ - before;
+    stored_ = true;
+  }
+
+  /// Once the product is there.
+  void dropCheckpoint() {
+    if (stored_ && stage_.extends.empty()) run_.pipeline_.store_->dropCheckpoint(stage_.name, checkpointKey_);
   }
 
  private:
@@ -151,6 +170,7 @@ class PipelineRun::Run : public StageRun {
   bool previewing_;
   Clock::time_point written_;
   Clock::duration cost_{0};
+  mutable bool stored_ = false;  // a checkpoint is in the store
   std::string checkpointKey_;
 };
 
@@ -158,7 +178,8 @@ std::vector<Value> PipelineRun::readValues() {
   std::vector<Value> values;
   forEachField(recipe_, [&](const FieldPlace& place, const FieldRef& field) {
     const Parameter& p = place.parameter;
-    const bool read = std::any_of(table().begin(), table().end(), [&](const Stage& s) { return coversAny(s.reads, p.path); });
+    const bool read = std::any_of(table().begin(), table().end(),
+                                  [&](const Stage& s) { return coversAny(s.reads, p.path); });
     if (!read) return;
     std::string text = fieldToJson(field, p).dump();
     if (p.type == ParameterType::File) {
@@ -220,6 +241,7 @@ void PipelineRun::runStage(const Stage& stage) {
     throw;
   }
   finish(stage, {std::move(product), keys_.at(stage.name), 1, 1}, true);
+  run.dropCheckpoint();
 }
 
 void PipelineRun::finish(const Stage& stage, State state, bool made) {
@@ -244,7 +266,9 @@ bool PipelineRun::leadsToTarget(const Stage& stage) const {
 /// Makes previews of the stages behind `stage` that somebody asked for, as far as their inputs are there.
 void PipelineRun::makePreviewsAfter(const Stage& stage) {
   for (const Stage& user : table()) {
-    if (std::count(user.inputs.begin(), user.inputs.end(), stage.name) == 0 || !user.previews || !leadsToTarget(user)) continue;
+    if (std::count(user.inputs.begin(), user.inputs.end(), stage.name) == 0 || !user.previews ||
+        !leadsToTarget(user))
+      continue;
     for (const std::string& input : user.inputs)
       if (!states_.contains(input)) need(stageNamed(table(), input));
     Run run(*this, user, true);
@@ -270,7 +294,8 @@ void PipelineRun::store(const Stage& stage, const State& state) {
 Pipeline::Pipeline(ProductStore* store, Options options, const std::vector<Stage>& table)
     : store_(store), options_(std::move(options)), table_(table) {}
 
-Products Pipeline::run(const Recipe& recipe, const std::vector<std::string>& targets, Job& job, PipelineListener* listener) {
+Products Pipeline::run(const Recipe& recipe, const std::vector<std::string>& targets, Job& job,
+                       PipelineListener* listener) {
   return PipelineRun(*this, recipe, job, listener).make(targets);
 }
 

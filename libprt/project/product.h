@@ -58,6 +58,8 @@ class ProductStore {
   /// Unfinished work of a stage: accumulators and the range of samples in them.
   virtual std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) = 0;
   virtual void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) = 0;
+  /// Removes it, if there is one.
+  virtual void dropCheckpoint(const std::string& stage, const std::string& key) = 0;
 
   /// Hash of a source file as it was last seen; empty when never. Lets a project open without its sources.
   virtual std::string sourceHash(const std::string& path) = 0;

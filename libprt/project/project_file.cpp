@@ -40,16 +40,21 @@ void removeWork(const fs::path& work) {
   fs::remove(work, ignored);
 }
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+std::string reason(int error) {
+  return std::error_code(error, std::generic_category()).message();
+}
 
 void syncPath(const fs::path& path, int flags) {
   const int file = ::open(path.c_str(), flags);
   const int failed = file < 0 || ::fsync(file) != 0 ? errno : 0;
   if (file >= 0) ::close(file);
-  if (failed) throw FileError("cannot be flushed to disk: " + reason(failed), path.string(), "check the disk");
+  if (failed)
+    throw FileError("cannot be flushed to disk: " + reason(failed), path.string(), "check the disk");
 }
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 void copyFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
@@ -57,18 +62,24 @@ void copyFile(const fs::path& from, const fs::path& to) {
   if (!error) return;
   removeWork(to);
   if (error == std::errc::no_space_on_device)
-    throw ResourceError("the disk is full", to.string(), "free some space and run again; what was saved is unchanged");
-  throw FileError("cannot be written: " + error.message(), to.string(), "check the space on the disk and the permissions of its folder");
+    throw ResourceError("the disk is full", to.string(),
+                        "free some space and run again; what was saved is unchanged");
+  throw FileError("cannot be written: " + error.message(), to.string(),
+                  "check the space on the disk and the permissions of its folder");
 }
 
-std::string checksumIn(Database& database) { return readProjectRow(database).checksum; }
+std::string checksumIn(Database& database) {
+  return readProjectRow(database).checksum;
+}
 
 }  // namespace
 
 ProjectFile::ProjectFile(fs::path file) : file_(std::move(file)) {}
 ProjectFile::~ProjectFile() = default;
 
-fs::path ProjectFile::workFile(const fs::path& file) { return file.string() + ".work"; }
+fs::path ProjectFile::workFile(const fs::path& file) {
+  return file.string() + ".work";
+}
 
 std::unique_ptr<ProjectFile> ProjectFile::open(const fs::path& file) {
   checkHeader(file);
@@ -81,12 +92,16 @@ std::unique_ptr<ProjectFile> ProjectFile::open(const fs::path& file) {
 std::unique_ptr<ProjectFile> ProjectFile::openForWork(const fs::path& file) {
   std::error_code error;
   std::unique_ptr<ProjectFile> project;
-  if (fs::exists(file, error)) project = open(file);
-  else project.reset(new ProjectFile(file));
+  if (fs::exists(file, error))
+    project = open(file);
+  else
+    project.reset(new ProjectFile(file));
   const std::string base = project->saved_ ? checksumIn(*project->saved_) : "";
   project->resumed_ = project->openLeftover(base);
-  if (project->resumed_) project->readProject();
-  else project->beginWork();
+  if (project->resumed_)
+    project->readProject();
+  else
+    project->beginWork();
   return project;
 }
 
@@ -134,7 +149,10 @@ void ProjectFile::beginWork() {
   transaction.commit();
 }
 
-Database& ProjectFile::current() { return work_ ? *work_ : *saved_; }
+Database& ProjectFile::current() {
+  if (!work_ && !saved_) throw FileError("can no longer be read", file_.string(), "open it again");
+  return work_ ? *work_ : *saved_;
+}
 
 Database& ProjectFile::work() {
   if (!work_) beginWork();
@@ -146,7 +164,8 @@ void ProjectFile::readProject() {
   recipe_ = recipeFromText(row.recipe, file_.string());
   sources_.clear();
   const auto sources = nlohmann::json::parse(row.sources, nullptr, false);
-  if (!sources.is_object()) throw DamagedFile("is damaged: its list of sources", file_.string(), "use a backup or bake again");
+  if (!sources.is_object())
+    throw DamagedFile("is damaged: its list of sources", file_.string(), "use a backup or bake again");
   for (const auto& [path, hash] : sources.items())
     if (hash.is_string()) sources_[path] = hash;
 }
@@ -176,33 +195,46 @@ void ProjectFile::putSourceHash(const std::string& path, const std::string& hash
   transaction.commit();
 }
 
-std::unique_ptr<ProductStore::Stored> ProjectFile::read(const std::string& stage, const std::string& key, const std::string& role) {
+std::unique_ptr<ProductStore::Stored> ProjectFile::read(const std::string& stage, const std::string& key,
+                                                        const std::string& role) {
   for (const ProductRow& row : readProductRows(current())) {
     if (row.info.stage != stage || row.info.key != key || row.role != role) continue;
     auto stored = std::make_unique<Stored>();
     stored->level = row.info.level;
     stored->levels = row.info.levels;
     stored->data.meta = row.info.meta;
-    for (const ArrayInfo& info : row.info.arrays) stored->data.arrays[info.name] = readArray(current(), row.id, info);
+    for (const ArrayInfo& info : row.info.arrays)
+      stored->data.arrays[info.name] = readArray(current(), row.id, info);
     return stored;
   }
   return nullptr;
 }
 
-void ProjectFile::write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored) {
+void ProjectFile::write(const std::string& stage, const std::string& key, const std::string& role,
+                        const Stored& stored) {
   Database& database = work();
   Transaction transaction(database);
   ProductInfo info{stage, key, role == kCheckpoint, stored.level, stored.levels, stored.data.meta, {}};
-  const std::int64_t id = 1 + database.integer("SELECT max(coalesce((SELECT max(id) FROM product), 0), coalesce((SELECT max(product) FROM array), 0))");
+  const std::int64_t id = 1 + database.integer(
+                                  "SELECT max(coalesce((SELECT max(id) FROM product), 0), coalesce((SELECT "
+                                  "max(product) FROM array), 0))");
   std::size_t uncommitted = 0;
   for (const auto& [name, array] : stored.data.arrays) {
-    info.arrays.push_back({name, array.dtype, array.shape, 0, 0, writeArray(database, id, name, array, uncommitted)});
+    info.arrays.push_back(
+        {name, array.dtype, array.shape, 0, 0, writeArray(database, id, name, array, uncommitted)});
   }
   // The row that makes it a product comes last, together with the end of the one that it replaces.
   for (const ProductRow& row : readProductRows(database))
     if (row.info.stage == stage && row.role == role && row.info.key == key) deleteProduct(database, row.id);
-  Statement insert(database, "INSERT INTO product(id, stage, key, role, level, levels, meta, checksum) VALUES(?, ?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(id).bind(stage).bind(key).bind(role).bind(std::int64_t(info.level)).bind(std::int64_t(info.levels));
+  Statement insert(database,
+                   "INSERT INTO product(id, stage, key, role, level, levels, meta, checksum) VALUES(?, ?, ?, "
+                   "?, ?, ?, ?, ?)");
+  insert.bind(id)
+      .bind(stage)
+      .bind(key)
+      .bind(role)
+      .bind(std::int64_t(info.level))
+      .bind(std::int64_t(info.levels));
   insert.bind(info.meta).bind(productChecksum(info, role)).run();
   writeProject();
   transaction.commit();
@@ -213,7 +245,8 @@ void ProjectFile::importFrom(ProjectFile& other) {
   for (const ProductRow& row : readProductRows(other.current())) {
     const ProductInfo& info = row.info;
     const auto there = read(info.stage, info.key, row.role);
-    if (!there || there->level < info.level) write(info.stage, info.key, row.role, *other.read(info.stage, info.key, row.role));
+    if (!there || there->level < info.level)
+      write(info.stage, info.key, row.role, *other.read(info.stage, info.key, row.role));
   }
   for (const auto& [path, hash] : other.sources_)
     putSourceHash(rebasedPath(path, folderOf(other.file_), folderOf(file_)), hash);
@@ -236,6 +269,16 @@ void ProjectFile::putCheckpoint(const std::string& stage, const std::string& key
   write(stage, key, kCheckpoint, {data, 0, 0});
 }
 
+void ProjectFile::dropCheckpoint(const std::string& stage, const std::string& key) {
+  Database& database = work();
+  Transaction transaction(database);
+  for (const ProductRow& row : readProductRows(database))
+    if (row.info.stage == stage && row.info.key == key && row.role == kCheckpoint)
+      deleteProduct(database, row.id);
+  writeProject();
+  transaction.commit();
+}
+
 std::vector<ProductInfo> ProjectFile::contents() {
   std::vector<ProductInfo> all;
   for (ProductRow& row : readProductRows(current())) all.push_back(std::move(row.info));
@@ -256,14 +299,30 @@ void ProjectFile::save() {
   if (!work_) return;
   const fs::path from = work_->file();
   work_.reset();  // the last commit is on disk, the journal is gone
-  syncPath(from, O_RDONLY);
-  Job job;
-  verify(from, job);  // a sound project is never replaced by one that is not
-  if (::rename(from.c_str(), file_.c_str()) != 0)
-    throw FileError("cannot be replaced: " + reason(errno), file_.string(), "check its permissions and those of its folder");
-  syncPath(folderOf(file_), O_RDONLY | O_DIRECTORY);
+  try {
+    syncPath(from, O_RDONLY);
+    Job job;
+    verify(from, job);  // a sound project is never replaced by one that is not
+    if (::rename(from.c_str(), file_.c_str()) != 0)
+      throw FileError("cannot be replaced: " + reason(errno), file_.string(),
+                      "check its permissions and those of its folder");
+  } catch (...) {
+    resumeWork(from);
+    throw;
+  }
   saved_ = openChecked(file_, Database::Mode::ReadOnly);
   resumed_ = written_ = false;
+  syncPath(folderOf(file_), O_RDONLY | O_DIRECTORY);
+}
+
+/// After a save that failed: the working copy is as good as before, so that another save can be tried.
+void ProjectFile::resumeWork(const fs::path& file) {
+  try {
+    auto database = std::make_unique<Database>(file, Database::Mode::ReadWrite);
+    claim(*database);
+    work_ = std::move(database);
+  } catch (const Error&) {  // what failed first is what gets told
+  }
 }
 
 void ProjectFile::discardWork() {

@@ -73,6 +73,7 @@ class ProjectFile : public ProductStore {
   void put(const std::string& stage, const std::string& key, const Stored& stored) override;
   std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override;
   void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override;
+  void dropCheckpoint(const std::string& stage, const std::string& key) override;
   std::string sourceHash(const std::string& path) override;
   void putSourceHash(const std::string& path, const std::string& hash) override;
 
@@ -85,7 +86,8 @@ class ProjectFile : public ProductStore {
   /// the space back.
   void keepOnly(const std::set<std::string>& keys);
 
-  /// Makes the working copy the saved project: flushed to disk, verified, then renamed over it.
+  /// Makes the working copy the saved project: flushed to disk, verified, then renamed over it. When that
+  /// fails the saved project and the working copy are as before, and it can be tried again.
   void save();
   /// Throws the working copy away.
   void discardWork();
@@ -109,6 +111,7 @@ class ProjectFile : public ProductStore {
   Database& work();
   bool openLeftover(const std::string& base);
   void beginWork();
+  void resumeWork(const std::filesystem::path& file);
   void readProject();
   void writeProject();
   std::unique_ptr<Stored> read(const std::string& stage, const std::string& key, const std::string& role);

@@ -202,9 +202,22 @@ ProductPtr makeDirect(StageRun& run) {
 ProductPtr makeTransfer(StageRun& run) {
   const TransferSettings settings = settingsOf(run.recipe());
   const Scene scene = withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe());
-  return std::make_shared<TransferProduct>(finishTransfer(scene, *run.input<RaysProduct>("rays")->rays,
-                                                          *run.input<SamplesProduct>("samples")->samples,
-                                                          run.input<DirectProduct>("direct")->direct, settings, *settings.form, run.job()));
+  std::map<std::string, Array> state;  // after the last bounce
+  const auto keep = [&] { run.keepCheckpoint([&] { return ProductData{"{}", state}; }); };
+  BounceCheckpoint bounces;
+  if (const auto saved = run.checkpoint()) bounces.saved = saved->arrays;
+  bounces.keep = [&](std::map<std::string, Array> next) {
+    state = std::move(next);
+    if (run.checkpointDue()) keep();
+  };
+  try {
+    return std::make_shared<TransferProduct>(finishTransfer(
+        scene, *run.input<RaysProduct>("rays")->rays, *run.input<SamplesProduct>("samples")->samples,
+        run.input<DirectProduct>("direct")->direct, settings, *settings.form, run.job(), nullptr, &bounces));
+  } catch (const Cancelled&) {
+    if (!state.empty()) keep();
+    throw;
+  }
 }
 
 /// Reads through "transfer" everything that it asks the recipe for.

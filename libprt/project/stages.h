@@ -51,7 +51,8 @@ class StageRun {
   /// Whether it is time to write a state that a later run can go on from. Thread-safe and quick.
   virtual bool checkpointDue() const = 0;
   /// Writes one; `save` is not called when there is nowhere to write. Do so when it is due, when cancelled,
-  /// and at the end where more can be added later.
+  /// and at the end where more can be added later (Stage::extends; else it is dropped with the end of the
+  /// stage).
   virtual void keepCheckpoint(const std::function<ProductData()>& save) = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace prt {
 namespace {
@@ -47,6 +48,61 @@ void addScaled(const SampleRows& from, const Rgb& scale, int channels, SampleRow
   }
 }
 
+Array arrayOf(const SampleRows& rows) {
+  return Array::from<float>(std::span<const float>(rows.values),
+                            {std::int64_t(rows.count()), std::int64_t(rows.stride)});
+}
+
+/// Fills rows of the right size from an array; false when it is not what arrayOf made of such rows.
+bool fillFrom(const std::map<std::string, Array>& arrays, const std::string& name, SampleRows& rows) {
+  const auto found = arrays.find(name);
+  if (found == arrays.end()) return false;
+  const Array& array = found->second;
+  const std::vector<std::int64_t> shape{std::int64_t(rows.count()), std::int64_t(rows.stride)};
+  if (array.dtype != DType::f32 || array.shape != shape ||
+      array.bytes.size() != rows.values.size() * sizeof(float))
+    return false;
+  std::memcpy(rows.values.data(), array.bytes.data(), array.bytes.size());
+  return true;
+}
+
+/// The chain between two bounces.
+struct Chain {
+  BounceResult result;
+  SampleRows last;  // e_k, or e_k / albedo^k
+
+  std::map<std::string, Array> save() const {
+    const std::int32_t bounces = result.bounces;
+    return {{"bounces", Array::from<std::int32_t>(std::span(&bounces, 1), {1})},
+            {"total", arrayOf(result.total)},
+            {"before_last", arrayOf(result.beforeLast)},
+            {"last", arrayOf(last)}};
+  }
+
+  /// Takes up a saved state of at most `most` bounces, if that is what `arrays` hold.
+  void restore(const std::map<std::string, Array>& arrays, int most) {
+    const auto found = arrays.find("bounces");
+    if (found == arrays.end() || found->second.dtype != DType::i32 ||
+        found->second.bytes.size() != sizeof(std::int32_t))
+      return;
+    Chain next = *this;
+    next.result.bounces = found->second.as<std::int32_t>()[0];
+    const bool fits = next.result.bounces > 0 && next.result.bounces <= most &&
+                      fillFrom(arrays, "total", next.result.total) &&
+                      fillFrom(arrays, "before_last", next.result.beforeLast) &&
+                      fillFrom(arrays, "last", next.last);
+    if (fits) *this = std::move(next);
+  }
+
+  /// Whether the last bounce added less than this share of the total.
+  bool endsBelow(float share) const {
+    if (result.bounces == 0) return false;
+    SampleRows added = result.total;
+    for (std::size_t i = 0; i < added.values.size(); ++i) added.values[i] -= result.beforeLast.values[i];
+    return norm(added) < share * norm(result.total);
+  }
+};
+
 }  // namespace
 
 BounceColours::BounceColours(std::span<const Material> materials) {
@@ -71,35 +127,38 @@ SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const S
 }
 
 BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, const BuriedFill& fill, int bounces, float stopThreshold, Job& job) {
+                                   BounceGather& gather, const BuriedFill& fill, int bounces,
+                                   float stopThreshold, Job& job, const BounceCheckpoint* checkpoint) {
   const BounceColours colours(scene.materials);
-  BounceResult result;
+  Chain chain;
+  BounceResult& result = chain.result;
   result.channels = colours.channels;
   result.total = directRows(direct, colours.channels);
   result.beforeLast = result.total;
-  SampleRows last = directRows(direct, colours.chainChannels);  // e_k, or e_k / albedo^k
+  chain.last = directRows(direct, colours.chainChannels);
+  if (checkpoint) chain.restore(checkpoint->saved, bounces);
   Rgb power(1);
+  for (int k = 0; k < result.bounces; ++k) power *= colours.common;
   job.begin("bounces", gather.rayCount() * bounces, "rays");
-  while (result.bounces < bounces) {
+  job.progress(gather.rayCount() * result.bounces, gather.rayCount() * bounces);
+  while (result.bounces < bounces && !chain.endsBelow(stopThreshold)) {
     SampleRows leaving;
     if (colours.factored) {
-      leaving = last;
+      leaving = chain.last;
       for (float& x : leaving.values) x /= kPiF;
       power *= colours.common;
     } else {
-      leaving = leavingRadiance(scene, surface, last, colours.chainChannels);
+      leaving = leavingRadiance(scene, surface, chain.last, colours.chainChannels);
     }
-    last = gather.irradiance(leaving, job);
-    fill.apply(last.values, last.stride);
+    chain.last = gather.irradiance(leaving, job);
+    fill.apply(chain.last.values, chain.last.stride);
     result.beforeLast = result.total;
-    addScaled(last, colours.factored ? power : Rgb(1), colours.channels, result.total);
+    addScaled(chain.last, colours.factored ? power : Rgb(1), colours.channels, result.total);
     ++result.bounces;
-    SampleRows added = result.total;
-    for (std::size_t i = 0; i < added.values.size(); ++i) added.values[i] -= result.beforeLast.values[i];
-    if (norm(added) < stopThreshold * norm(result.total)) break;
+    if (checkpoint && checkpoint->keep) checkpoint->keep(chain.save());
   }
   job.progress(gather.rayCount() * bounces, gather.rayCount() * bounces);
-  return result;
+  return std::move(chain.result);
 }
 
 }  // namespace prt

@@ -4,6 +4,7 @@
 #include "libprt/core/job.h"
 #include "libprt/transport/bounce_gather.h"
 #include "libprt/transport/buried.h"
+#include "libprt/transport/transfer_bake.h"
 
 #include <span>
 #include <vector>
@@ -33,9 +34,11 @@ struct BounceResult {
   SampleRows beforeLast;  ///< e_0 + ... + e_(bounces-1)
 };
 
-/// Adds bounces to the direct irradiance until `bounces` are done or one adds less than `stopThreshold` of the
-/// total (Frobenius norms). `gather` must gather at the surface set itself.
+/// Adds bounces to the direct irradiance until `bounces` are done or one adds less than `stopThreshold` of
+/// the total (Frobenius norms). `gather` must gather at the surface set itself. `checkpoint` may be null.
 BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, const BuriedFill& fill, int bounces, float stopThreshold, Job& job);
+                                   BounceGather& gather, const BuriedFill& fill, int bounces,
+                                   float stopThreshold, Job& job,
+                                   const BounceCheckpoint* checkpoint = nullptr);
 
 }  // namespace prt

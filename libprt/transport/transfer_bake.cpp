@@ -79,10 +79,19 @@ struct Bounced {
 class Finish {
  public:
   Finish(const Scene& scene, const RayScene& rays, const SampleSet& samples, const DirectTransfer& direct,
-         const TransferSettings& settings, TransferForm form, Job& job, const Transfer* surface)
-      : scene_(scene), rays_(rays), samples_(samples), direct_(direct), settings_(settings), form_(form), job_(job),
+         const TransferSettings& settings, TransferForm form, Job& job, const Transfer* surface,
+         const BounceCheckpoint* checkpoint)
+      : scene_(scene),
+        rays_(rays),
+        samples_(samples),
+        direct_(direct),
+        settings_(settings),
+        form_(form),
+        job_(job),
         ownSurface_(samples.vertices > 0 ? SampleSet{} : samplesAtVertices(scene)),
-        surfaceSet_(samples.vertices > 0 ? samples : ownSurface_), surface_(surface),
+        surfaceSet_(samples.vertices > 0 ? samples : ownSurface_),
+        surface_(surface),
+        checkpoint_(checkpoint),
         fill_(scene, samples, direct.buried.as<std::uint8_t>()),
         gather_(scene, rays, surfaceSet_, samples, direct, settings.hitMemory) {}
 
@@ -119,7 +128,8 @@ class Finish {
     bounced.total = padded(direct_.diffuse, std::size_t(shCount(settings_.bands)));
     if (settings_.bounces == 0 || form_ == TransferForm::Visibility) return bounced;
     if (samples_.vertices > 0) {
-      BounceResult chain = bounceBetweenVertices(scene_, samples_, direct_, gather_, fill_, settings_.bounces, settings_.stopThreshold, job_);
+      BounceResult chain = bounceBetweenVertices(scene_, samples_, direct_, gather_, fill_, settings_.bounces,
+                                                 settings_.stopThreshold, job_, checkpoint_);
       return {chain.channels, chain.bounces, std::move(chain.total), std::move(chain.beforeLast)};
     }
     if (surface_->bounces == 0) return bounced;
@@ -172,6 +182,7 @@ class Finish {
   SampleSet ownSurface_;
   const SampleSet& surfaceSet_;
   const Transfer* surface_;
+  const BounceCheckpoint* checkpoint_;
   BuriedFill fill_;
   BounceGather gather_;
 };
@@ -210,8 +221,9 @@ DirectSettings directSettings(const TransferSettings& settings, TransferForm for
   return direct;
 }
 
-Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSet& samples, const DirectTransfer& direct,
-                        const TransferSettings& settings, TransferForm form, Job& job, const Transfer* surface) {
+Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSet& samples,
+                        const DirectTransfer& direct, const TransferSettings& settings, TransferForm form,
+                        Job& job, const Transfer* surface, const BounceCheckpoint* checkpoint) {
   check(settings);
   if (form == TransferForm::None) {
     Transfer none;
@@ -220,7 +232,7 @@ Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSe
     return none;
   }
   checkParts(scene, samples, direct, settings, form, surface);
-  return Finish(scene, rays, samples, direct, settings, form, job, surface).run();
+  return Finish(scene, rays, samples, direct, settings, form, job, surface, checkpoint).run();
 }
 
 Transfer bakeTransfer(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,

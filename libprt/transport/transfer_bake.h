@@ -12,8 +12,10 @@
 #include "libprt/transport/transfer.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace prt {
 
@@ -42,13 +44,22 @@ TransferForm resolveForm(const TransferSettings& settings, std::span<const Mater
 /// Settings of the direct product that a form other than None needs.
 DirectSettings directSettings(const TransferSettings& settings, TransferForm form);
 
+/// What bouncing between the vertices has come to after a bounce, as named arrays. A run that is given an
+/// earlier one's state goes on from there, to the same bits.
+struct BounceCheckpoint {
+  std::map<std::string, Array> saved;  ///< where an earlier run was; what does not fit is left alone
+  std::function<void(std::map<std::string, Array>)> keep;  ///< gets the state after every bounce
+};
+
 /// Everything after the direct product. `samples` are those of `direct`. When they are the scene's vertices,
 /// `surface` may be null. For other sets it must be a finished Transfer of the same scene's vertices with the
 /// same number of bounces: light bounces between vertices, and any point gathers from them.
-/// For the form None `direct` is ignored. Throws ValueError when the parts do not fit.
+/// `checkpoint` serves the vertices' own bounces. For the form None `direct` is ignored. Throws ValueError
+/// when the parts do not fit.
 Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSet& samples,
-                        const DirectTransfer& direct, const TransferSettings& settings, TransferForm form, Job& job,
-                        const Transfer* surface = nullptr);
+                        const DirectTransfer& direct, const TransferSettings& settings, TransferForm form,
+                        Job& job, const Transfer* surface = nullptr,
+                        const BounceCheckpoint* checkpoint = nullptr);
 
 /// The whole bake. `preview`, if given, gets every level but the last as it is completed.
 Transfer bakeTransfer(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,

@@ -28,14 +28,24 @@ std::map<std::string, std::string> productsIn(const fs::path& folder, const std:
   if (info.is_discarded()) return {};
   for (const json& product : info["products"])
     if (!product["checkpoint"])
-      for (const json& array : product["arrays"]) checksums[product["stage"].get<std::string>() + "/" + array["name"].get<std::string>()] = array["checksum"];
+      for (const json& array : product["arrays"])
+        checksums[product["stage"].get<std::string>() + "/" + array["name"].get<std::string>()] =
+            array["checksum"];
   return checksums;
 }
 
 std::vector<std::string> bakeCommand(const std::string& output, const std::string& bands) {
-  return {"prt", "bake", "scene:default", "-o", output, "-q", "--checkpoint", "0", "--threads", "2",
-          "--set", "objects[0].mesh.detail=0.4", "--set", "objects[1].mesh.detail=0.3", "--set", "transfer.rays=1024",
-          "--set", "transfer.bounces=1", "--set", "transfer.bands=" + bands};
+  return {"prt",           "bake",
+          "scene:default", "-o",
+          output,          "-q",
+          "--checkpoint",  "0",
+          "--threads",     "2",
+          "--set",         "objects[0].mesh.detail=0.4",
+          "--set",         "objects[1].mesh.detail=0.3",
+          "--set",         "transfer.rays=1024",
+          "--set",         "transfer.bounces=3",
+          "--set",         "transfer.threshold=0",
+          "--set",         "transfer.bands=" + bands};
 }
 
 TEST(Kill, NeverHurtsTheSavedProjectAndResumesToTheSameBits) {
@@ -74,7 +84,8 @@ TEST(Interrupt, CtrlCEndsWith130AndKeepsTheWork) {
   std::vector<std::string> slow = bakeCommand("a.prt", "4");
   slow.insert(slow.end(), {"--set", "transfer.rays=65536"});
   test::Program bake(slow, folder.path());
-  while (bake.running() && !fs::exists(folder / "a.prt.work")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  while (bake.running() && !fs::exists(folder / "a.prt.work"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   const auto asked = Clock::now();
   bake.send(SIGINT);
@@ -94,9 +105,15 @@ TEST(Interrupt, CtrlCEndsWith130AndKeepsTheWork) {
 TEST(Threads, DoNotChangeTheProducts) {
   const test::TemporaryFolder folder;
   const auto bake = [&](const std::string& output, const std::string& threads) {
-    std::vector<std::string> words{"prt", "bake", "scene:default", "-o", output, "-q", "--threads", threads, "--set", "objects[0].mesh.detail=0.4",
-                                   "--set", "objects[1].mesh.detail=0.3", "--set", "transfer.rays=128", "--set", "objects[0].material.model=phong",
-                                   "--set", "objects[0].material.specular=0.3"};
+    std::vector<std::string> words{"prt",           "bake",
+                                   "scene:default", "-o",
+                                   output,          "-q",
+                                   "--threads",     threads,
+                                   "--set",         "objects[0].mesh.detail=0.4",
+                                   "--set",         "objects[1].mesh.detail=0.3",
+                                   "--set",         "transfer.rays=128",
+                                   "--set",         "objects[0].material.model=phong",
+                                   "--set",         "objects[0].material.specular=0.3"};
     EXPECT_EQ(test::run(words, folder.path()).status, 0);
     return productsIn(folder.path(), output);
   };

@@ -1,5 +1,5 @@
-#include "libprt/core/error.h"
 #include "libprt/project/project_file.h"
+#include "libprt/core/error.h"
 #include "tests/project/toy_stages.h"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,9 @@ std::string readBytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void writeBytes(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+void writeBytes(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
 
 template <class T>
 Array ramp(std::vector<std::int64_t> shape) {
@@ -33,7 +35,12 @@ Array ramp(std::vector<std::int64_t> shape) {
 }
 
 ProductStore::Stored sample() {
-  return {{R"({"rays":64})", {{"values", ramp<float>({7, 25})}, {"indices", ramp<std::int32_t>({4, 3})}, {"none", ramp<std::uint8_t>({0})}}}, 2, 2};
+  return {{R"({"rays":64})",
+           {{"values", ramp<float>({7, 25})},
+            {"indices", ramp<std::int32_t>({4, 3})},
+            {"none", ramp<std::uint8_t>({0})}}},
+          2,
+          2};
 }
 
 bool equal(const ProductData& a, const ProductData& b) {
@@ -98,11 +105,34 @@ TEST_F(ProjectFileTest, KeepsRecipeAndProducts) {
   EXPECT_EQ(project->findCheckpoint("direct", "key"), nullptr);
 }
 
+TEST_F(ProjectFileTest, ASaveThatFailsCanBeTriedAgain) {
+  for (const bool hadSaved : {false, true}) {
+    if (hadSaved) makeSaved();
+    const auto project = ProjectFile::openForWork(file);
+    project->put("direct", "new", sample());
+    fs::remove(file);
+    fs::create_directories(file / "in the way");  // a folder cannot be replaced by a file
+    EXPECT_THROW(project->save(), FileError);
+    ASSERT_NE(project->find("direct", "new"), nullptr) << "what was worked on is still there";
+    project->put("direct", "newer", sample());
+    EXPECT_TRUE(project->hasNewWork());
+    fs::remove_all(file);
+    project->save();
+    EXPECT_EQ(verifyError(), "no error");
+    EXPECT_NE(ProjectFile::open(file)->find("direct", "newer"), nullptr);
+    fs::remove(file);
+  }
+}
+
 TEST_F(ProjectFileTest, LargeArraysSpanChunksAndCommits) {
   std::mt19937_64 random(1);
   std::vector<std::uint32_t> values(5 << 20);  // 20 MB that do not compress
   for (auto& v : values) v = std::uint32_t(random());
-  const ProductStore::Stored big{{"{}", {{"v", Array::from<std::uint32_t>(std::span<const std::uint32_t>(values), {std::int64_t(values.size())})}}}, 1, 1};
+  const ProductStore::Stored big{{"{}",
+                                  {{"v", Array::from<std::uint32_t>(std::span<const std::uint32_t>(values),
+                                                                    {std::int64_t(values.size())})}}},
+                                 1,
+                                 1};
   const auto project = ProjectFile::openForWork(file);
   project->put("s", "k", big);
   project->save();
@@ -167,7 +197,8 @@ TEST_F(ProjectFileTest, WorkOnAnotherStateIsNotTakenUp) {
 
 TEST_F(ProjectFileTest, DamagedWorkIsDropped) {
   makeSaved();
-  for (const std::string& rubbish : {std::string(), std::string("rubbish"), readBytes(file).substr(0, 100000)}) {
+  for (const std::string& rubbish :
+       {std::string(), std::string("rubbish"), readBytes(file).substr(0, 100000)}) {
     writeBytes(ProjectFile::workFile(file), rubbish);
     const auto project = ProjectFile::openForWork(file);
     EXPECT_FALSE(project->resumed());

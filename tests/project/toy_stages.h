@@ -15,20 +15,25 @@ struct Number : Product {
   explicit Number(double v) : value(v) {}
   double value;
   ProductData save() const override {
-    return {nlohmann::json{{"value", value}}.dump(), {{"value", Array::from<double>(std::span(&value, 1), {1})}}};
+    return {nlohmann::json{{"value", value}}.dump(),
+            {{"value", Array::from<double>(std::span(&value, 1), {1})}}};
   }
-  static ProductPtr load(ProductData data) { return std::make_shared<Number>(data.array("value", DType::f64, 1).as<double>()[0]); }
+  static ProductPtr load(ProductData data) {
+    return std::make_shared<Number>(data.array("value", DType::f64, 1).as<double>()[0]);
+  }
 };
 
 /// mesh -> direct (progressive, in passes of 16 rays) -> bounces; mesh -> frames (not stored).
 class ToyStages {
  public:
   ToyStages() {
-    table = {stage("mesh", {}, {"objects[].mesh"}, [](StageRun&) { return 1.0; }),
-             stage("frames", {"mesh"}, {"objects[].transform"}, [](StageRun& r) { return 10 + of(r, "mesh"); }),
-             stage("direct", {"mesh"}, {"objects[].transform", "transfer.rays", "transfer.bands"}, [this](StageRun& r) { return direct(r); }),
-             stage("bounces", {"direct"}, {"objects[].material.albedo", "transfer.bounces"},
-                   [](StageRun& r) { return of(r, "direct") + r.recipe().transfer.bounces; })};
+    table = {
+        stage("mesh", {}, {"objects[].mesh"}, [](StageRun&) { return 1.0; }),
+        stage("frames", {"mesh"}, {"objects[].transform"}, [](StageRun& r) { return 10 + of(r, "mesh"); }),
+        stage("direct", {"mesh"}, {"objects[].transform", "transfer.rays", "transfer.bands"},
+              [this](StageRun& r) { return direct(r); }),
+        stage("bounces", {"direct"}, {"objects[].material.albedo", "transfer.bounces"},
+              [](StageRun& r) { return of(r, "direct") + r.recipe().transfer.bounces; })};
     table[1].stored = false;
     table[2].extends = {"transfer.rays"};
   }
@@ -43,7 +48,11 @@ class ToyStages {
 
   template <class F>
   Stage stage(const char* name, std::vector<std::string> inputs, std::vector<std::string> reads, F value) {
-    Stage s{.name = name, .makes = "a number", .inputs = std::move(inputs), .reads = std::move(reads), .load = Number::load};
+    Stage s{.name = name,
+            .makes = "a number",
+            .inputs = std::move(inputs),
+            .reads = std::move(reads),
+            .load = Number::load};
     s.make = [this, name, value](StageRun& run) -> ProductPtr {
       ++runs[name];
       return std::make_shared<Number>(value(run));
@@ -86,12 +95,19 @@ class MemoryStore : public ProductStore {
     const auto found = products.find(stage + key);
     return found == products.end() ? nullptr : std::make_unique<Stored>(found->second);
   }
-  void put(const std::string& stage, const std::string& key, const Stored& stored) override { products[stage + key] = stored; }
+  void put(const std::string& stage, const std::string& key, const Stored& stored) override {
+    products[stage + key] = stored;
+  }
   std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override {
     const auto found = checkpoints.find(stage + key);
     return found == checkpoints.end() ? nullptr : std::make_unique<ProductData>(found->second);
   }
-  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override { checkpoints[stage + key] = data; }
+  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override {
+    checkpoints[stage + key] = data;
+  }
+  void dropCheckpoint(const std::string& stage, const std::string& key) override {
+    checkpoints.erase(stage + key);
+  }
   std::string sourceHash(const std::string& path) override { return sources[path]; }
   void putSourceHash(const std::string& path, const std::string& hash) override { sources[path] = hash; }
 

@@ -407,6 +407,60 @@ TEST(TransferBake, PreviewsComeFirstAndRefine) {
   EXPECT_LT(test::relativeError(last.values.as<float>(), exact), 0.5 * errors[1]);
 }
 
+TEST(Bounces, GoOnFromAnyOfThemToTheSameBits) {
+  const BakeInput grey(bowl(16, 32), Rgb(0.6f));
+  Scene coloured = *grey.scene;
+  coloured.materials[0].albedo = Rgb(0.8f, 0.5f, 0.2f);
+  for (const BakeInput& input : {grey, BakeInput(coloured)})
+    for (const TransferForm form : {TransferForm::Diffuse, TransferForm::Matrix}) {
+      TransferSettings s = settings(128, 4, form);
+      s.stopThreshold = 0;
+      const DirectTransfer direct = input.direct(directSettings(s, form));
+      Job job;
+      const auto finish = [&](const BounceCheckpoint& checkpoint) {
+        return finishTransfer(*input.scene, *input.rays, *input.samples, direct, s, form, job, nullptr,
+                              &checkpoint);
+      };
+      std::vector<std::map<std::string, Array>> states;
+      const Transfer whole =
+          finish({{}, [&](std::map<std::string, Array> state) { states.push_back(std::move(state)); }});
+      ASSERT_EQ(states.size(), 4u);
+      for (std::size_t done = 1; done <= states.size(); ++done) {
+        std::size_t more = 0;
+        const Transfer resumed = finish({states[done - 1], [&](const auto&) { ++more; }});
+        EXPECT_EQ(more, states.size() - done);
+        EXPECT_EQ(resumed.bounces, 4);
+        EXPECT_EQ(resumed.values.bytes, whole.values.bytes);
+        EXPECT_EQ(resumed.surface.bytes, whole.surface.bytes);
+      }
+      // What is of another bake is not taken up.
+      for (const char* name : {"bounces", "total", "before_last", "last"}) {
+        std::map<std::string, Array> other = states[1];
+        other[name].bytes.pop_back();
+        std::size_t all = 0;
+        EXPECT_EQ(finish({other, [&](const auto&) { ++all; }}).values.bytes, whole.values.bytes);
+        EXPECT_EQ(all, states.size()) << name;
+      }
+    }
+}
+
+TEST(Bounces, AChainThatHasEndedIsNotGoneOnWith) {
+  const BakeInput input(bowl(16, 32), Rgb(0.2f));
+  TransferSettings s = settings(128, 50);
+  s.stopThreshold = 0.01f;
+  const DirectTransfer direct = input.direct(directSettings(s, TransferForm::Diffuse));
+  Job job;
+  BounceCheckpoint checkpoint;
+  checkpoint.keep = [&](std::map<std::string, Array> state) { checkpoint.saved = std::move(state); };
+  const auto finish = [&] {
+    return finishTransfer(*input.scene, *input.rays, *input.samples, direct, s, TransferForm::Diffuse, job,
+                          nullptr, &checkpoint);
+  };
+  const int bounces = finish().bounces;
+  EXPECT_LT(bounces, 10);
+  EXPECT_EQ(finish().bounces, bounces);
+}
+
 TEST(TransferBake, CancellingStopsEveryPhase) {
   const BakeInput input(rock(24), Rgb(0.6f));
   for (const std::string phase : {"direct transfer", "bounces", "transfer matrices"}) {
