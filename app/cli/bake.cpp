@@ -1,6 +1,7 @@
 // prt bake: makes the products of a recipe and saves them in a project.
 
 #include "app/cli/progress_bar.h"
+#include "app/cli/recipe_page.h"
 #include "app/cli/session.h"
 #include "libprt/project/bake.h"
 #include "libprt/project/scenes.h"
@@ -75,6 +76,15 @@ void addBake(CLI::App& app, Action& action) {
       ->check(finite())
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
+  command
+      ->add_flag_callback(
+          "--help-all",
+          [] {
+            fmt::print("{}", recipePage());
+            throw CLI::Success();
+          },
+          "Print every setting with its values and what changing it costs, as a page (Markdown)")
+      ->trigger_on_parse();
   command->footer(parameterHelp);
   command->callback([options, &action] { action = [options](Session& s) { bake(s, *options); }; });
 }

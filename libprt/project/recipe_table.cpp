@@ -140,7 +140,7 @@ const std::vector<Row<CameraRecipe>> kCamera{
 const std::vector<Row<TransferRecipe>> kTransfer{
     {"kind", [](TransferRecipe& t) -> FieldRef { return choice(t.kind); }, ParameterType::Choice, "", 0, 0,
      {"auto", "none", "diffuse", "visibility", "matrix"}, kCostDirect,
-     "What is stored per sample; auto takes the cheapest form that the materials and bounces allow."},
+     "What is stored per sample; auto takes the cheapest form that holds all. Visibility holds no bounces, diffuse no highlights."},
     {"bands", [](TransferRecipe& t) -> FieldRef { return &t.bands; }, ParameterType::Integer, "bands", 1, 10, {},
      "rebakes transfer; size grows with bands^2 (diffuse) to bands^4 (matrix)",
      "Spherical-harmonic bands; n bands have n^2 functions, 5 have 25."},
