@@ -69,7 +69,7 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   const Transfer& transfer = input.baked.transfer->transfer;
   const std::size_t vertices = scene.mesh.vertexCount();
   ExportManifest manifest(folder, "npy");
-  manifest.set("vertices", vertices).set("faces", scene.mesh.triangleCount()).set("bands", transfer.bands).set("functions", transfer.functions());
+  manifest.set("vertices", vertices).set("samples", samples.size()).set("faces", scene.mesh.triangleCount()).set("bands", transfer.bands).set("functions", transfer.functions());
   manifest.set("final", input.baked.final()).set("rays_per_sample", transfer.raysPerSample).set("bounces", transfer.bounces);
   job.begin("arrays", 0);
   const auto write = [&](const std::string& name, const Array& array, const std::string& doc) {

@@ -2,7 +2,10 @@
 
 #include "libprt/core/image_io.h"
 #include "libprt/core/npy.h"
+#include "libprt/mesh/generate.h"
 #include "libprt/mesh/repair.h"
+#include "libprt/shade/tonemap.h"
+#include "tests/support/off_edges.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -10,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -68,6 +72,16 @@ TEST_F(Commands, BakeListsEverySetting) {
     EXPECT_THAT(help, HasSubstr(path));
 }
 
+TEST_F(Commands, TheRecipePageIsUpToDate) {
+  std::ifstream file(fs::path(PRT_SOURCE_DIR) / "docs/recipe.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const ProgramResult now = prt({"bake", "--help-all"});
+  EXPECT_EQ(now.status, 0);
+  EXPECT_TRUE(now.out == page) << "write it anew with ./dev docs, or prt bake --help-all > docs/recipe.md";
+  for (const char* path : {"`objects[].mesh.path`", "`lights[].rotation`", "`transfer.kind`", "auto, none, diffuse, visibility, matrix"})
+    EXPECT_THAT(page, HasSubstr(path));
+}
+
 TEST_F(Commands, NothingIsPrintedWhenQuiet) {
   const ProgramResult result = prt({"bake", "builtin:box", "-o", "a.prt", "--quiet"});
   EXPECT_EQ(result.status, 0);
@@ -124,6 +138,47 @@ TEST_F(Commands, LightPrintsEnergyAndTruncation) {
   EXPECT_LT(band["truncation_error"][3], 0.02);
 }
 
+TEST_F(Commands, LightIsWrittenThroughOneWindow) {
+  const auto bandOne = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"light", "builtin:clear-sky", "--bands", "5"});
+    const json light = prtJson(std::move(words));
+    return light["coefficients"][2][1].get<double>() /
+           light["coefficients"][0][1].get<double>();  // Y(1,0) against the mean
+  };
+  const double fejer = 2.0 / 3;  // of band 1 of 5
+  EXPECT_NEAR(bandOne({"--window", "fejer"}) / bandOne({}), fejer, 0.01);
+  for (const char* window : {"none", "fejer"}) {
+    const double shown = bandOne({"--window", "fejer", "-o", "light.exr"});
+    const json written = prtJson(
+        {"light", "builtin:clear-sky", "--bands", "5", "--window", window, "-o", "light.exr"})["written"];
+    EXPECT_EQ(written["window"], "fejer");
+    const json back = prtJson({"light", "light.exr", "--bands", "5"});
+    EXPECT_NEAR(back["coefficients"][2][1].get<double>() / back["coefficients"][0][1].get<double>() / shown,
+                1, 2e-3)
+        << window;
+  }
+  // A window that leaves negative light tells what became of it.
+  const ProgramResult lanczos = prt({"light", "builtin:clear-sky", "--window", "lanczos", "-o", "light.exr"});
+  EXPECT_EQ(lanczos.status, 0);
+  EXPECT_THAT(lanczos.err, HasSubstr("negative"));
+}
+
+TEST_F(Commands, WhatASettingExcludesIsTold) {
+  const std::vector<std::string> shadowsOnly{"--set", "transfer.kind=visibility", "--set", "transfer.bounces=2"};
+  std::vector<std::string> words{"bake", "builtin:box", "-o", "a.prt", "--set", "transfer.rays=16"};
+  words.insert(words.end(), shadowsOnly.begin(), shadowsOnly.end());
+  const ProgramResult result = prt(words);
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("the 2 bounces of transfer.bounces are left out"));
+  EXPECT_EQ(result.errorLines(), 1);
+  words.insert(words.end(), {"--json", "--quiet"});
+  const json baked = json::parse(prt(words).out);
+  EXPECT_EQ(baked["transfer"]["bounces"], 0);
+  EXPECT_EQ(baked["notes"].size(), 1u);
+  const json contented = prtJson({"bake", "a.prt", "--set", "transfer.bounces=0"});
+  EXPECT_TRUE(contented["notes"].empty());
+}
+
 TEST_F(Commands, BakePrintsWhatToExpect) {
   bakeSmall("a.prt");
   const json baked = prtJson({"bake", "a.prt", "--set", "transfer.rays=128"});
@@ -165,12 +220,92 @@ TEST_F(Commands, RelightTurnsTheEnvironment) {
   EXPECT_EQ(readImage(folder / "b.exr").pixel(0, 0)[3], 1);
 }
 
+/// Share of the pixels off edges that agree to 1/255 as a screen shows them.
+double agreement(const Image& a, const Image& b, const std::vector<bool>& off) {
+  const Image x = toDisplay(a, {}), y = toDisplay(b, {});
+  double compared = 0, agreeing = 0;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (!off[i]) continue;
+    const Rgb d = abs(x.rgb(int(i) % x.width, int(i) / x.width) - y.rgb(int(i) % x.width, int(i) / x.width));
+    ++compared;
+    agreeing += std::max({d.x, d.y, d.z}) <= 1.0f / 255;
+  }
+  EXPECT_GT(compared, 0.5 * double(off.size()));
+  return agreeing / compared;
+}
+
 TEST_F(Commands, RelightWithOpenGlMakesTheSamePicture) {
-  bakeSmall("a.prt");
-  for (const char* backend : {"cpu", "gl"})
-    ASSERT_EQ(prt({"relight", "a.prt", "--backend", backend, "--size", "320x240", "-o", std::string(backend) + ".exr"}).status, 0);
-  // Inside surfaces; along silhouettes the two take their samples of a pixel at different places.
-  EXPECT_LT(prtJson({"compare", "gl.exr", "cpu.exr"})["percentile95"], 0.01);
+  constexpr int kWidth = 320, kHeight = 240;
+  std::ofstream(folder / "cam.json") << R"({"eye": [1.2, 1.6, 2.4], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40})";
+  Camera camera;
+  camera.eye = Vec3(1.2f, 1.6f, 2.4f);
+  camera.verticalFov = float(radians(40.0));
+  const std::vector<bool> off = test::offEdges(makeBuiltinMesh("torus", 0.2f, 1), camera, kWidth, kHeight);
+  const std::vector<std::string> glossy{"--set", "material.model=phong", "--set", "material.specular=0.3", "--set", "material.exponent=30"};
+  const std::vector<std::vector<std::string>> materials{{}, glossy};
+  for (const auto& material : materials) {
+    bakeSmall("a.prt", material);
+    for (const char* backend : {"cpu", "gl"})
+      ASSERT_EQ(prt({"relight", "a.prt", "--backend", backend, "--camera", "cam.json", "--size", "320x240", "--background", "-o", std::string(backend) + ".exr"}).status, 0);
+    EXPECT_GE(agreement(readImage(folder / "gl.exr"), readImage(folder / "cpu.exr"), off), 0.999) << material.size();
+  }
+}
+
+/// A sheet bent like a gutter: each vertex has a sample on either side.
+TEST_F(Commands, TwoSidedSurfacesAreLitFromBothSides) {
+  constexpr int kSide = 17, kVertices = kSide * kSide;
+  std::ofstream obj(folder / "sheet.obj");
+  const auto at = [](int i) { return 2.0 * i / (kSide - 1) - 1; };
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) obj << "v " << at(i) << " " << 0.6 * at(i) * at(i) << " " << at(j) << "\n";
+  for (int j = 0; j + 1 < kSide; ++j)
+    for (int i = 0; i + 1 < kSide; ++i) {
+      const int a = 1 + j * kSide + i;
+      obj << "f " << a << " " << a + kSide << " " << a + kSide + 1 << " " << a + 1 << "\n";
+    }
+  obj.close();
+  constexpr int kWidth = 120, kHeight = 90;
+  Job job;
+  const std::map<std::string, Camera> cameras{{"above", {.eye = {1, 3, 2}}}, {"below", {.eye = {1, -3, 2}}}};
+  for (const auto& [name, camera] : cameras)
+    std::ofstream(folder / (name + ".json")) << json{{"eye", {camera.eye.x, camera.eye.y, camera.eye.z}}, {"target", {0, 0, 0}}, {"up", {0, 1, 0}}, {"vfov_deg", 30}};
+  const auto picture = [&](std::vector<std::string> words, const std::string& camera, const std::string& name) {
+    words.insert(words.end(), {"a.prt", "--light", "constant:1", "--light", "circle:1,-1,0.5:60:2,1,1", "--camera", camera + ".json", "--size", "120x90", "-o", name});
+    const ProgramResult result = prt(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return readImage(folder / name);
+  };
+  const std::vector<std::string> common{"bake", "sheet.obj", "-o", "a.prt", "--set", "transfer.bounces=1", "--set", "material.albedo=0.8,0.5,0.3",
+                                        "--set", "mesh.orientation=keep"};
+  const auto bake = [&](const std::string& twoSided, const std::string& model) {
+    std::vector<std::string> words = common;
+    words.insert(words.end(), {"--set", "material.twoSided=" + twoSided, "--set", "material.model=" + model, "--set", "material.exponent=10"});
+    return prtJson(words);
+  };
+  for (const char* model : {"lambert", "phong"}) {
+    const json baked = bake("true", model);
+    EXPECT_EQ(baked["objects"][0]["vertices"], kVertices);
+    EXPECT_EQ(baked["transfer"]["samples"], 2 * kVertices);
+    EXPECT_GT(baked["floor"]["interpolation"], 0);
+    EXPECT_LT(baked["floor"]["interpolation"], 0.05);
+    for (const auto& [name, camera] : cameras) {
+      const Image cpu = picture({"relight"}, name, "cpu.exr");
+      picture({"relight", "--method", "diffuse"}, name, "diffuse.exr");
+      EXPECT_GT(cpu.rgb(kWidth / 2, kHeight / 2).x, 0.1f) << model << " from " << name;
+      const std::vector<bool> off = test::offEdges(loadMesh(folder / "sheet.obj", {.orientation = Orientation::keep}, job), camera, kWidth, kHeight);
+      EXPECT_GE(agreement(cpu, picture({"relight", "--backend", "gl"}, name, "gl.exr"), off), 0.999) << model << " from " << name;
+      if (std::string(model) == "phong") continue;  // lights of few bands have no sharp highlights to compare
+      picture({"reference", "--spp", "256"}, name, "truth.exr");
+      EXPECT_LT(prtJson({"compare", "cpu.exr", "truth.exr"})["percentile95"], 0.08) << name;
+    }
+    const json written = prtJson({"export", "a.prt", "--npy", "npy", "--gltf", "gltf"});
+    const json manifest = json::parse(std::ifstream(folder / "npy/manifest.json"));
+    EXPECT_EQ(manifest["vertices"], kVertices);
+    EXPECT_EQ(manifest["samples"], 2 * kVertices) << "of which the vertices' fronts are exported";
+    EXPECT_EQ(readNpy(folder / "npy/transfer_diffuse.npy").shape[0], kVertices);
+  }
+  EXPECT_EQ(bake("false", "lambert")["transfer"]["samples"], kVertices);
+  EXPECT_EQ(picture({"relight"}, "below", "dark.exr").rgb(kWidth / 2, kHeight / 2).x, 0) << "the back of a one-sided sheet";
 }
 
 TEST_F(Commands, CamerasComeFromFilesAndNames) {
