@@ -16,6 +16,10 @@
 #include <thread>
 #include <utility>
 
+#ifdef __SANITIZE_THREAD__
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace prt {
 namespace {
 
@@ -23,6 +27,43 @@ constexpr int kBackgroundNice = 10;
 constexpr int kLeavesOneFree = 4;  // threads from which on background work leaves one free
 
 thread_local bool inBackground = false;
+
+/// What threads hand to each other through oneTBB, for ThreadSanitizer: the library itself is not built with it, so that
+/// it does not see that tiles begin after the loop and end before it returns.
+class Handover {
+ public:
+#ifdef __SANITIZE_THREAD__
+  void give() { __tsan_release(this); }
+  void take() { __tsan_acquire(this); }
+#else
+  void give() {}
+  void take() {}
+#endif
+};
+
+/// The loop: takes what its tiles made, also when one of them throws.
+class TakenAtEnd {
+ public:
+  explicit TakenAtEnd(Handover& handover) : handover_(handover) {}
+  ~TakenAtEnd() { handover_.take(); }
+  TakenAtEnd(const TakenAtEnd&) = delete;
+  TakenAtEnd& operator=(const TakenAtEnd&) = delete;
+
+ private:
+  Handover& handover_;
+};
+
+/// One tile: takes what the loop gives, gives what it made, however it ends.
+class HandoverScope {
+ public:
+  explicit HandoverScope(Handover& handover) : handover_(handover) { handover_.take(); }
+  ~HandoverScope() { handover_.give(); }
+  HandoverScope(const HandoverScope&) = delete;
+  HandoverScope& operator=(const HandoverScope&) = delete;
+
+ private:
+  Handover& handover_;
+};
 
 /// Says for its life whether this thread does background work.
 class Standing {
@@ -114,7 +155,9 @@ void parallelFor(Job& job, std::size_t begin, std::size_t end, std::size_t grain
   grain = std::max<std::size_t>(1, grain);
   const std::size_t tiles = (end - begin + grain - 1) / grain;
   const bool background = inBackground;
+  Handover handover;
   const auto runTile = [&](std::size_t tile) {
+    const HandoverScope scope(handover);
     job.checkCancelled();
     const FlushDenormals flush;
     const Standing standing(background);  // loops inside this one stay where it is
@@ -122,6 +165,8 @@ void parallelFor(Job& job, std::size_t begin, std::size_t end, std::size_t grain
     body(first, std::min(first + grain, end));
   };
   const auto used = arenaFor(background);  // kept alive should the thread count change meanwhile
+  handover.give();
+  const TakenAtEnd taken(handover);
   used->arena.execute(
       [&] { tbb::parallel_for(std::size_t{0}, tiles, std::size_t{1}, runTile, tbb::simple_partitioner()); });
 }

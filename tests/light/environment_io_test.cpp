@@ -1,6 +1,5 @@
 #include "libprt/light/environment_io.h"
 #include "libprt/core/error.h"
-#include "libprt/core/file.h"
 #include "libprt/core/image_io.h"
 #include "libprt/core/sampling.h"
 #include "libprt/light/projection.h"
@@ -11,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 
 namespace prt {
@@ -132,69 +130,9 @@ TEST(Probes, TheSunsHoldHalfOfThePower) {
   }
 }
 
-// --- Fuzzing -----------------------------------------------------------------------------------------
+// --- Any pixels; any bytes: tests/fuzz/environment_fuzz.cpp ---------------------------------------------
 
-/// Deterministic damage: a few bytes overwritten (often in the header), a piece cut out or doubled.
-std::vector<std::byte> damaged(std::vector<std::byte> file, std::uint64_t seed) {
-  auto random = [seed, n = std::uint32_t(0)](std::size_t below) mutable {
-    return std::size_t(hashBits(seed, 0, n++) % std::max<std::size_t>(1, below));
-  };
-  const std::size_t changes = 1 + random(6);
-  for (std::size_t i = 0; i < changes && !file.empty(); ++i) {
-    const std::size_t reach = random(2) ? std::min<std::size_t>(file.size(), 400) : file.size(),
-                      at = random(reach);
-    switch (random(5)) {
-      case 0:
-        file[at] = std::byte(random(256));
-        break;
-      case 1:
-        file[at] ^= std::byte(1u << random(8));
-        break;
-      case 2:
-        file[at] = random(2) ? std::byte(0xff) : std::byte(0);
-        break;
-      case 3:
-        file.erase(file.begin() + std::ptrdiff_t(at),
-                   file.begin() + std::ptrdiff_t(std::min(file.size(), at + 1 + random(40))));
-        break;
-      default: {
-        const std::vector<std::byte> piece(
-            file.begin() + std::ptrdiff_t(at),
-            file.begin() + std::ptrdiff_t(std::min(file.size(), at + 1 + random(40))));
-        file.insert(file.begin() + std::ptrdiff_t(random(file.size())), piece.begin(), piece.end());
-      }
-    }
-  }
-  return file;
-}
-
-/// Whatever the bytes, there is a usable map or an Error.
-void readAndUse(const std::vector<std::byte>& file) {
-  try {
-    const EnvironmentMap map = makeEnvironment(
-        readImage(file, "fuzzed", {.maxSide = 4096, .maxChannels = 64, .maxBytes = 16 << 20}), "fuzzed");
-    for (const float value : map.pixels().data) ASSERT_TRUE(value >= 0 && value <= kMaxRadiance);
-    if (map.pixels().pixels() > 10'000) return;
-    for (const Rgb& c : projectEnvironment(map, 3).c) ASSERT_TRUE(isFinite(c));
-    ASSERT_TRUE(isFinite(map.radiance({0.6f, 0, 0.8f})));
-  } catch (const Error& error) {
-    ASSERT_NE(std::string(error.what()), "");
-  }
-}
-
-TEST(EnvironmentFuzz, DamagedFilesGiveAMapOrAnError) {
-  const test::TemporaryFolder folder;
-  const int rounds = std::getenv("PRT_FULL") ? 20'000 : 400;
-  for (const MapGeometry& g : {MapGeometry(M::LatLong, 16, 8), MapGeometry(M::VerticalCross, 12, 16),
-                               MapGeometry(M::AngularMap, 12, 12)})
-    for (const std::string name : {"map.exr", "map.hdr", "map.png"}) {
-      writeImage(folder / name, test::randomMap(g, 43, 10).pixels());
-      const std::vector<std::byte> file = readFile(folder / name);
-      for (int i = 0; i < rounds; ++i) readAndUse(damaged(file, std::uint64_t(i)));
-    }
-}
-
-TEST(EnvironmentFuzz, AnyFloatsMakeAUsableMap) {
+TEST(EnvironmentIo, AnyFloatsMakeAUsableMap) {
   // bit patterns as they come: denormals, NaNs, infinities, negative zero
   for (std::uint64_t seed = 0; seed < 200; ++seed)
     for (const MapGeometry& g : test::oneOfEach(3)) {
