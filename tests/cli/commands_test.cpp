@@ -6,6 +6,7 @@
 #include "libprt/mesh/repair.h"
 #include "libprt/shade/tonemap.h"
 #include "tests/support/off_edges.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -73,7 +74,7 @@ TEST_F(Commands, BakeListsEverySetting) {
 }
 
 TEST_F(Commands, TheRecipePageIsUpToDate) {
-  std::ifstream file(fs::path(PRT_SOURCE_DIR) / "docs/recipe.md");
+  std::ifstream file(test::sourceFolder() / "docs/recipe.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const ProgramResult now = prt({"bake", "--help-all"});
   EXPECT_EQ(now.status, 0);
