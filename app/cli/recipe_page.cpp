@@ -56,8 +56,8 @@ std::string sectionOf(const std::string& path) {
 
 /// Whole numbers with all their digits, unless they are powers of ten that are easier read as such.
 std::string number(double value) {
-  const double power = value > 0 ? std::log10(value) : 0;
-  if (power >= 6 && power == std::round(power)) return fmt::format("1e{:.0f}", power);
+  const double power = value != 0 ? std::log10(std::abs(value)) : 0;
+  if (power >= 6 && power == std::round(power)) return fmt::format("{}1e{:.0f}", value < 0 ? "-" : "", power);
   return value == std::round(value) ? fmt::format("{:.0f}", value) : fmt::format("{:g}", value);
 }
 

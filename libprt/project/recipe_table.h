@@ -38,6 +38,9 @@ struct RecipeArray {
 };
 std::vector<RecipeArray> recipeArrays(Recipe& recipe);
 
+/// Throws ValueError when a text is not UTF-8: JSON, and so a recipe, cannot hold it.
+void requireUtf8(const std::string& text, const std::string& where);
+
 /// Value of a field as JSON, and the reverse. Writing checks type and range; `where` begins the message.
 nlohmann::json fieldToJson(const FieldRef& field, const Parameter& parameter);
 void fieldFromJson(const FieldRef& field, const Parameter& parameter, const nlohmann::json& value,

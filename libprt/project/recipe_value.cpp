@@ -73,6 +73,7 @@ std::string text(const json& value, const std::string& where) {
   const auto isControl = [](char c) { return (unsigned char)(c) < 0x20 || c == 0x7f; };
   if (s.size() > 4096 || std::any_of(s.begin(), s.end(), isControl))
     throw ValueError("text is too long or has control characters", where, "give a plain text of up to 4096 bytes");
+  requireUtf8(s, where);
   return s;
 }
 
@@ -88,6 +89,14 @@ int choiceIndex(const Parameter& p, const json& value, const std::string& where)
 }
 
 }  // namespace
+
+void requireUtf8(const std::string& text, const std::string& where) {
+  try {
+    json(text).dump();
+  } catch (const json::exception&) {
+    throw ValueError("text is not UTF-8", where, "rename the file, or write the text in UTF-8");
+  }
+}
 
 json fieldToJson(const FieldRef& field, const Parameter& p) {
   return std::visit(Overload{[](const bool* v) { return json(*v); }, [](const int* v) { return json(*v); },

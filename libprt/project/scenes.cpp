@@ -5,6 +5,7 @@
 #include "libprt/mesh/mesh_reader.h"
 #include "libprt/project/embedded_scenes.h"
 #include "libprt/project/project_file.h"
+#include "libprt/project/recipe_table.h"
 
 #include <algorithm>
 #include <cctype>
@@ -72,6 +73,7 @@ RecipeSource openRecipe(const std::string& input) {
   const std::vector<std::string> meshes = meshExtensions();
   if (std::count(meshes.begin(), meshes.end(), extension) == 0)
     throw FileError("is neither a mesh, a recipe nor a project", input, "use .prt, .json or " + listed(meshes));
+  requireUtf8(file.filename().string(), input);
   return {recipeOfMesh(file.filename().string(), file.stem().string()), folderOf(file), {}};
 }
 

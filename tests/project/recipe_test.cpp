@@ -189,6 +189,14 @@ TEST(Recipe, UnreadableFilesAreFileErrors) {
   EXPECT_THROW(loadRecipe("/tmp"), FileError);
 }
 
+TEST(Recipe, TextThatJsonCannotHoldIsRefused) {
+  Recipe recipe;
+  for (const char* setting : {"mesh.path=caf\xe9.obj", "objects[0].name=\xff", "lights[0].path=\xc0\xaf"})
+    EXPECT_THAT(errorOf([&] { setByAssignment(recipe, setting); }), HasSubstr("not UTF-8")) << setting;
+  setByAssignment(recipe, "objects[0].name=caf\xc3\xa9");
+  EXPECT_EQ(recipe.objects[0].name, "caf\xc3\xa9");
+}
+
 TEST(NearestName, ForgivesTyposButNotNonsense) {
   EXPECT_EQ(nearestName("bnads", {"bands", "rays"}), "bands");
   EXPECT_EQ(nearestName("xyzzy", {"bands", "rays"}), "");
