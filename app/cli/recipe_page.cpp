@@ -83,7 +83,8 @@ std::string valuesOf(const Parameter& p) {
     case ParameterType::Number:
       break;
   }
-  return p.unit.empty() ? range : range + " " + p.unit;
+  const bool named = p.unit.empty() || p.path.ends_with(p.unit);  // the name says it
+  return named ? range : range + " " + p.unit;
 }
 
 }  // namespace

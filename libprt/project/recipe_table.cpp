@@ -94,7 +94,7 @@ const std::vector<Row<Material>> kMaterial{
     {"exponent", [](Material& m) -> FieldRef { return &m.exponent; }, ParameterType::Number, "", 1, 10000, {},
      kCostLight, "Sharpness of the Phong lobe."},
     {"twoSided", [](Material& m) -> FieldRef { return &m.twoSided; }, ParameterType::Boolean, "", 0, 0, {},
-     kCostBounces, "Back faces reflect too; otherwise they only block light."},
+     kCostDirect, "Back faces reflect too; otherwise they only block light."},
 };
 
 const std::vector<Row<LightRecipe>> kLight{
