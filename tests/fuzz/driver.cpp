@@ -67,7 +67,7 @@ std::string contents(const fs::path& path) {
 
 std::vector<fs::path> keptCases() {
   std::vector<fs::path> cases;
-  const fs::path folder = test::sourceFolder() / "tests/data/fuzz" / target.name;
+  const fs::path folder = prt::test::sourceFolder() / "tests/data/fuzz" / target.name;
   if (fs::is_directory(folder))
     for (const auto& entry : fs::directory_iterator(folder)) cases.push_back(entry.path());
   std::sort(cases.begin(), cases.end());

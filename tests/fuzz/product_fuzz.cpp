@@ -58,14 +58,15 @@ ProductData decode(std::string_view text) {
 }
 
 std::string encode(const std::string& stage, const ProductData& data) {
-  std::string text = stage + "\n" + data.meta + "\n";
+  std::ostringstream text;
+  text << stage << '\n' << data.meta << '\n';
   for (const auto& [name, array] : data.arrays) {
-    text += name + " " + std::to_string(int(array.dtype));
-    for (const std::int64_t extent : array.shape) text += " " + std::to_string(extent);
-    text += "\n";
-    text.append(reinterpret_cast<const char*>(array.bytes.data()), array.bytes.size());
+    text << name << ' ' << int(array.dtype);
+    for (const std::int64_t extent : array.shape) text << ' ' << extent;
+    text << '\n';
+    text.write(reinterpret_cast<const char*>(array.bytes.data()), std::streamsize(array.bytes.size()));
   }
-  return text;
+  return text.str();
 }
 
 void useMeshes(const MeshProduct& product) {
