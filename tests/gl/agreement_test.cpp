@@ -7,6 +7,7 @@
 #include "libprt/shade/render.h"
 #include "libprt/transport/transfer_bake.h"
 #include "tests/gl/gl_test_support.h"
+#include "tests/support/off_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,38 +82,6 @@ Transfer bake(const TestScene& s, TransferForm form, int bands, int bounces) {
   return bakeTransfer(s.scene, s.rays, s.samples, settings, job);
 }
 
-// Distance along the view of what each pixel's centre sees; 0 where nothing is.
-std::vector<float> depths(const Scene& scene, const Camera& camera) {
-  Job job;
-  const FragmentImage view = rasterize(scene.mesh, camera, kWidth, kHeight, 1, job);
-  std::vector<float> depth(std::size_t(kWidth) * kHeight, 0.0f);
-  for (const FragmentTile& tile : view.tiles)
-    for (int i = 0; i < tile.width * tile.height; ++i)
-      for (const Fragment& f : tile.pixel(std::size_t(i))) {
-        const UVec3& t = scene.mesh.triangles[f.triangle];
-        const Vec2& b = f.barycentric;
-        const Vec3 p = (1 - b.x - b.y) * scene.mesh.positions[t.x] + b.x * scene.mesh.positions[t.y] + b.y * scene.mesh.positions[t.z];
-        depth[std::size_t((tile.y + i / tile.width) * kWidth + tile.x + i % tile.width)] = length(p - camera.eye);
-      }
-  return depth;
-}
-
-// Pixels whose neighbours are as far away as they are, and where both pictures show the same kind of thing.
-std::vector<bool> offEdges(const Scene& scene, const Camera& camera) {
-  const std::vector<float> depth = depths(scene, camera);
-  std::vector<bool> off(depth.size(), false);
-  for (int y = 1; y + 1 < kHeight; ++y)
-    for (int x = 1; x + 1 < kWidth; ++x) {
-      const float here = depth[std::size_t(y * kWidth + x)];
-      bool smooth = true;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-          smooth = smooth && std::abs(depth[std::size_t((y + j) * kWidth + x + i)] - here) <= 0.03f * here;
-      off[std::size_t(y * kWidth + x)] = smooth;
-    }
-  return off;
-}
-
 void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRig& rig, const char* what) {
   const ShRgb light = lightOf(s, rig, transfer.bands);
   const ToneSettings tone{.exposure = 0.3f, .curve = ToneCurve::Filmic};
@@ -130,7 +99,7 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
   picture.tone = tone;
   const Image gl = renderer.renderToned(picture);
 
-  const std::vector<bool> off = offEdges(*s.scene, s.camera);
+  const std::vector<bool> off = test::offEdges(s.scene->mesh, s.scene->triangleObject, s.camera, kWidth, kHeight);
   int compared = 0, agreeing = 0;
   float worst = 0;
   for (int y = 0; y < kHeight; ++y)
