@@ -19,6 +19,8 @@
 
 namespace {
 
+constexpr int kGrid = 2;  // samples per pixel and side, as prt relight takes them
+
 struct Options {
   std::string gltf, npy, output, camera;
   int width = 800, height = 600;
@@ -155,25 +157,24 @@ unsigned uploadTransfer(const Exported& scene) {
   return makeProgram(SHADERS "/relight.vert", SHADERS "/relight.frag", defines);
 }
 
-/// A target of float radiance with four samples a pixel (or one).
-unsigned target(int samples, int width, int height) {
+/// A target of float radiance.
+unsigned target(int width, int height) {
   unsigned frame = 0, buffers[2] = {};
   glCreateFramebuffers(1, &frame);
   glCreateRenderbuffers(2, buffers);
-  glNamedRenderbufferStorageMultisample(buffers[0], samples, GL_RGBA32F, width, height);
-  glNamedRenderbufferStorageMultisample(buffers[1], samples, GL_DEPTH_COMPONENT32F, width, height);
+  glNamedRenderbufferStorage(buffers[0], GL_RGBA32F, width, height);
+  glNamedRenderbufferStorage(buffers[1], GL_DEPTH_COMPONENT32F, width, height);
   glNamedFramebufferRenderbuffer(frame, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers[0]);
   glNamedFramebufferRenderbuffer(frame, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
   if (glCheckNamedFramebufferStatus(frame, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("the driver has no float target with several samples");
+    throw std::runtime_error("the driver has no float target");
   return frame;
 }
 
 std::vector<float> draw(const Exported& scene, const Camera& camera, const std::vector<Vec3>& light,
                         int width, int height) {
   const unsigned array = uploadMesh(scene.mesh), program = uploadTransfer(scene);
-  const unsigned many = target(4, width, height), one = target(0, width, height);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, many);
+  glBindFramebuffer(GL_FRAMEBUFFER, target(width, height));
   glViewport(0, 0, width, height);
   glEnable(GL_DEPTH_TEST);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -188,15 +189,13 @@ std::vector<float> draw(const Exported& scene, const Camera& camera, const std::
   glDrawElements(GL_TRIANGLES, GLsizei(scene.mesh.indices.size()), GL_UNSIGNED_INT, nullptr);
 
   std::vector<float> pixels(4 * std::size_t(width) * std::size_t(height));
-  glBlitNamedFramebuffer(many, one, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                         GL_NEAREST);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, one);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, pixels.data());
   if (const unsigned error = glGetError()) throw std::runtime_error("OpenGL error " + std::to_string(error));
   return pixels;
 }
 
-void writePpm(const std::string& file, const std::vector<float>& pixels, int width, int height) {
+/// Mean of kGrid x kGrid samples, encoded as sRGB, from the top row down.
+void writePpm(const std::string& file, const std::vector<float>& samples, int width, int height) {
   const auto encode = [](float v) {
     v = std::clamp(v, 0.0f, 1.0f);
     return char(std::lround(255 * (v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f)));
@@ -205,9 +204,15 @@ void writePpm(const std::string& file, const std::vector<float>& pixels, int wid
   out << "P6\n" << width << ' ' << height << "\n255\n";
   for (int y = height - 1; y >= 0; --y)
     for (int x = 0; x < width; ++x)
-      for (int channel = 0; channel < 3; ++channel)
-        out.put(encode(
-            pixels[4 * (std::size_t(y) * std::size_t(width) + std::size_t(x)) + std::size_t(channel)]));
+      for (int channel = 0; channel < 3; ++channel) {
+        float sum = 0;
+        for (int i = 0; i < kGrid * kGrid; ++i) {
+          const int row = y * kGrid + i / kGrid, column = x * kGrid + i % kGrid;
+          sum += samples[4 * (std::size_t(row) * std::size_t(width * kGrid) + std::size_t(column)) +
+                         std::size_t(channel)];
+        }
+        out.put(encode(sum / float(kGrid * kGrid)));
+      }
   if (!out.flush()) throw std::runtime_error(file + ": cannot be written");
 }
 
@@ -218,8 +223,9 @@ void run(const Options& options) {
   });
   if (camera == scene.cameras.end()) throw std::runtime_error("there is no camera '" + options.camera + "'");
   makeHeadlessContext();
-  writePpm(options.output, draw(scene, *camera, lightOf(scene, options), options.width, options.height),
-           options.width, options.height);
+  const std::vector<float> samples =
+      draw(scene, *camera, lightOf(scene, options), kGrid * options.width, kGrid * options.height);
+  writePpm(options.output, samples, options.width, options.height);
 }
 
 }  // namespace

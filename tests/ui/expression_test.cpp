@@ -41,7 +41,7 @@ TEST(Format, NumbersHaveNoMoreDigitsThanTheyNeed) {
 
 TEST(Format, CountsAreGrouped) {
   EXPECT_EQ(formatCount(7), u"7");
-  EXPECT_EQ(formatCount(1234567), u"1\u2009234\u2009567");
+  EXPECT_EQ(formatCount(1234567), u"1\u202f234\u202f567");
   EXPECT_EQ(formatCount(-123), u"-123");
 }
 

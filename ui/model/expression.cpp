@@ -133,7 +133,7 @@ QString formatNumber(double value, int decimals) {
 
 QString formatCount(qint64 value) {
   QString text = QString::number(value);
-  for (qsizetype i = text.size() - 3; i > (value < 0 ? 1 : 0); i -= 3) text.insert(i, QChar(0x2009));
+  for (qsizetype i = text.size() - 3; i > (value < 0 ? 1 : 0); i -= 3) text.insert(i, QChar(0x202f));
   return text;
 }
 

@@ -16,6 +16,8 @@ class CpuCanvas : public QWidget, public Canvas {
   QWidget* widget() override { return this; }
   void invalidate() override { update(); }
   void setInteracting(bool interacting) override;
+  void setThorough(bool) override {}
+  bool settled() const override { return !interacting_; }
   double frameMilliseconds() const override { return milliseconds_; }
   QString describe() const override { return tr("CPU"); }
   QImage grabPicture() override;
@@ -30,7 +32,7 @@ class CpuCanvas : public QWidget, public Canvas {
   CanvasContext context_;
   bool interacting_ = false;
   double milliseconds_ = 0;
-  Scene scene_;        // with the materials of now
+  Scene scene_;  // with the materials of now
   SampleSet samples_;
   quint64 sceneVersion_ = 0, materialVersion_ = 0;
 };
