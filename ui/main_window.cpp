@@ -92,6 +92,11 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   viewport_->setFocus();
 }
 
+// The docks are hidden while QMainWindow is being taken apart; nobody may ask it about them then.
+MainWindow::~MainWindow() {
+  for (QDockWidget* dock : docks_) dock->disconnect(this);
+}
+
 QDockWidget* MainWindow::addDock(const QString& title, const QString& name, QWidget* content,
                                  Qt::DockWidgetArea area) {
   auto* dock = new QDockWidget(title);

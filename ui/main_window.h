@@ -23,6 +23,7 @@ class MainWindow : public QMainWindow {
  public:
   /// Restores the layout of the last time unless `freshLayout`.
   MainWindow(Session& session, bool freshLayout);
+  ~MainWindow() override;
 
   Viewport& viewport() { return *viewport_; }
   LightHandles& lightHandles() { return *lightHandles_; }

@@ -52,9 +52,8 @@ TEST_F(TooltipTest, EveryRowOfTheRecipeTellsUnitDefaultAndCost) {
       EXPECT_TRUE(row->toolTip().contains(QString::fromStdString(part).toHtmlEscaped()))
           << path.toStdString() << ": " << part;
     EXPECT_FALSE(parameter.cost.empty()) << path.toStdString();
-    if (!parameter.unit.empty())
-      EXPECT_TRUE(row->toolTip().contains(QString::fromStdString("Unit: " + parameter.unit)))
-          << path.toStdString();
+    const std::string unit = parameter.unit.empty() ? "" : "Unit: " + parameter.unit;
+    EXPECT_TRUE(row->toolTip().contains(QString::fromStdString(unit))) << path.toStdString();
   }
   EXPECT_GE(rows, 8);
 }

@@ -205,7 +205,9 @@ class RowMenu {
   /// Opens the menu and triggers the entry whose text begins so; all entries as they were.
   QStringList choose(const char* beginning) {
     QStringList entries;
-    QTimer::singleShot(50, [&] {
+    QTimer timer;  // fires while the menu waits
+    timer.setSingleShot(true);
+    QObject::connect(&timer, &QTimer::timeout, [&] {
       auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
       ASSERT_TRUE(menu) << "no menu";
       QAction* chosen = nullptr;
@@ -221,6 +223,7 @@ class RowMenu {
       menu->setActiveAction(chosen);
       QTest::keyClick(menu, Qt::Key_Return);
     });
+    timer.start(50);
     QContextMenuEvent event(QContextMenuEvent::Mouse, at_, bench_.row->mapToGlobal(at_));
     QApplication::sendEvent(bench_.row->childAt(at_), &event);
     return entries;
@@ -265,8 +268,9 @@ TEST(PropertyRow, ADoubleClickOrTheRightButtonResetsChoicesAndColoursToo) {
   QTest::mouseDClick(model.row->findChild<QLabel*>(), Qt::LeftButton);
   EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Lambert);
   model.document.set(s("material.model"), s("phong"));
-  RowMenu(model, model.fieldCenter()).choose("Reset");
-  EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Lambert);
+  const QStringList entries = RowMenu(model, model.fieldCenter()).choose("Reset");
+  EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Lambert)
+      << entries.join(u'|').toStdString();
 }
 
 TEST(PropertyRow, ShiftScrubsFinerWithTheMouse) {

@@ -13,8 +13,13 @@ namespace prt::ui {
 
 namespace {
 
-QPixmap render(QByteArray svg, const QColor& color, const QSize& size) {
-  svg.replace("#232629", color.name().toLatin1());
+// One colour, whatever Breeze has: red and orange mean states here.
+QByteArray recoloured(QByteArray svg, const QColor& color, const QColor& behind) {
+  for (const char* of : {"#232629", "#da4453", "#f67400"}) svg.replace(of, color.name().toLatin1());
+  return svg.replace("#fff\"", behind.name().toLatin1() + '"');
+}
+
+QPixmap render(QByteArray svg, const QSize& size) {
   QBuffer buffer(&svg);
   QImageReader reader(&buffer, "svg");
   reader.setScaledSize(size);
@@ -36,7 +41,7 @@ class ThemeIconEngine : public QIconEngine {
         QStringLiteral("prt-icon-%1-%2-%3x%4").arg(name_, color.name()).arg(size.width()).arg(size.height());
     QPixmap result;
     if (QPixmapCache::find(key, &result)) return result;
-    result = render(svg_, color, size);
+    result = render(recoloured(svg_, color, theme().panel), size);
     QPixmapCache::insert(key, result);
     return result;
   }
@@ -74,8 +79,7 @@ QIcon applicationIcon() {
   if (!file.open(QIODevice::ReadOnly)) return {};
   const QByteArray svg = file.readAll();
   QIcon result;
-  for (const int side : {16, 24, 32, 48, 64, 128, 256})
-    result.addPixmap(render(svg, Qt::black, QSize(side, side)));
+  for (const int side : {16, 24, 32, 48, 64, 128, 256}) result.addPixmap(render(svg, QSize(side, side)));
   return result;
 }
 

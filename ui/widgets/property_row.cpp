@@ -84,6 +84,7 @@ PropertyRow::PropertyRow(Document& document, const QString& path, const QString&
   label_->setFixedWidth(kLabelWidth);
   setRole(label_, "muted");
   label_->installEventFilter(this);
+  editor_->installEventFilter(this);
   label_->setBuddy(editor_);
   if (qobject_cast<NumberField*>(editor_)) {
     label_->setCursor(Qt::SizeHorCursor);
@@ -199,7 +200,7 @@ QWidget* PropertyRow::makeChoice() {
   box->setMinimumContentsLength(6);
   box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   connect(box, &QComboBox::textActivated, this, &PropertyRow::apply);
-  box->installEventFilter(this);
+
   show_ = [this, box] {
     box->setCurrentText(
         QString::fromStdString(getByPath(document_.recipe(), path_.toStdString()).get<std::string>()));
@@ -242,6 +243,12 @@ bool PropertyRow::eventFilter(QObject* watched, QEvent* event) {
                             type == QEvent::MouseButtonRelease || type == QEvent::MouseButtonDblClick)) {
     if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
     scrubFromLabel(event);
+    return true;
+  }
+  // Everywhere on a row the same menu, but for a text that is being edited.
+  const bool typing = qobject_cast<QLineEdit*>(editor_) && editor_->hasFocus();
+  if (watched == editor_ && type == QEvent::ContextMenu && !typing) {
+    contextMenuEvent(static_cast<QContextMenuEvent*>(event));
     return true;
   }
   // A combo box must not change while a panel is scrolled over it.
