@@ -97,7 +97,7 @@ void Panorama::paintSky(QPainter& painter) const {
 }
 
 void Panorama::paintMark(QPainter& painter, const LightMark& mark) const {
-  const Theme& t = theme();
+  const Theme& t = pictureTheme();
   const bool hot =
       (hovered_.light == mark.light && hovered_.part != Part::None) || dragged_.light == mark.light;
   const QPointF at = toStrip(mark.direction, size());
