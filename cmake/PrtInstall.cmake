@@ -15,6 +15,8 @@ install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(TARGETS prt_cli)
 if(TARGET prt-studio)
   install(TARGETS prt-studio)
+  install(FILES resources/desktop/prt-studio.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+  install(FILES resources/theme/prt-studio.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 endif()
 
 set(CPACK_PACKAGE_NAME prt-studio)

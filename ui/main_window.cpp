@@ -11,18 +11,24 @@
 #include "ui/viewport/viewport.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
+#include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/workflow_strip.h"
+#include "ui/window/command_palette.h"
+#include "ui/window/commands.h"
+#include "ui/window/keys_overlay.h"
+#include "ui/window/layouts.h"
 
+#include <QActionGroup>
 #include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QSettings>
 #include <QStatusBar>
+#include <QStatusTipEvent>
 #include <QTimer>
 
 #include <fstream>
@@ -31,8 +37,7 @@ namespace prt::ui {
 
 namespace {
 
-constexpr int kLayoutVersion = 1;  // raised when the docks change, so that old layouts are not restored
-constexpr int kLeftWidth = 232, kRightWidth = 264;
+constexpr int kLayoutVersion = 2;  // raised when the docks change, so that old layouts are not restored
 constexpr int kDefaultWidth = 1440, kDefaultHeight = 900;
 
 QString residentMemory() {
@@ -47,10 +52,13 @@ QString residentMemory() {
 MainWindow::MainWindow(Session& session, bool freshLayout)
     : session_(session),
       viewport_(new Viewport(session)),
-      lightHandles_(new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
+      lightHandles_(
+          new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
       message_(new MessageBar(viewport_)),
       strip_(new WorkflowStrip),
+      layouts_(new Layouts(*this, layoutPlans(), kLayoutVersion)),
       fileLabel_(new QLabel),
+      sizeLabel_(new QLabel),
       memoryLabel_(new QLabel),
       hintLabel_(new QLabel) {
   setObjectName(QStringLiteral("studio"));
@@ -59,17 +67,16 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   makeDocks();
+  makeSheets();
   makeMenus();
   makeStatusBar();
   resize(kDefaultWidth, kDefaultHeight);
-  resetLayout();
-  firstLayout_ = saveState(kLayoutVersion);
-  QSettings settings;
   if (freshLayout) {
-    settings.remove(QStringLiteral("window"));
+    layouts_->reset();
   } else {
+    QSettings settings;
     restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
-    restoreState(settings.value(QStringLiteral("window/layout")).toByteArray(), kLayoutVersion);
+    layouts_->restore(settings);
   }
 
   connect(&session_, &Session::message, this, [this](Severity severity, const QString& text, Place place) {
@@ -98,7 +105,9 @@ QDockWidget* MainWindow::addDock(const QString& title, const QString& name, QWid
   dock->setWidget(content);
   auto* bar = new DockTitle(dock);
   dock->setTitleBarWidget(bar);
-  const auto fold = [this, dock, bar] { bar->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty()); };
+  const auto fold = [this, dock, bar] {
+    bar->setFolded(!dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty());
+  };
   connect(dock, &QDockWidget::visibilityChanged, this, fold);
   connect(dock, &QDockWidget::dockLocationChanged, this, fold);
   connect(dock, &QDockWidget::topLevelChanged, this, fold);
@@ -108,13 +117,15 @@ QDockWidget* MainWindow::addDock(const QString& title, const QString& name, QWid
 }
 
 void MainWindow::makeDocks() {
-  QDockWidget* scene = addDock(tr("Scene"), QStringLiteral("scene"), new SceneDock(session_), Qt::LeftDockWidgetArea);
-  QDockWidget* light = addDock(tr("Light"), QStringLiteral("light"), new LightDock(session_), Qt::LeftDockWidgetArea);
+  QDockWidget* scene =
+      addDock(tr("Scene"), QStringLiteral("scene"), new SceneDock(session_), Qt::LeftDockWidgetArea);
+  QDockWidget* light =
+      addDock(tr("Light"), QStringLiteral("light"), new LightDock(session_), Qt::LeftDockWidgetArea);
   addDock(tr("Jobs"), QStringLiteral("jobs"), new JobsDock(session_.jobs()), Qt::LeftDockWidgetArea);
   addDock(tr("Log"), QStringLiteral("log"), new LogDock(session_.log()), Qt::LeftDockWidgetArea);
   addDock(tr("Material"), QStringLiteral("material"), new MaterialDock(session_), Qt::RightDockWidgetArea);
-  QDockWidget* transfer =
-      addDock(tr("Transfer"), QStringLiteral("transfer"), new TransferDock(session_), Qt::RightDockWidgetArea);
+  QDockWidget* transfer = addDock(tr("Transfer"), QStringLiteral("transfer"), new TransferDock(session_),
+                                  Qt::RightDockWidgetArea);
 
   const auto bring = [](QDockWidget* dock) {
     return [dock] {
@@ -128,25 +139,32 @@ void MainWindow::makeDocks() {
     return [this, list] { return session_.bakes().worstStatus(list); };
   };
   strip_->addStep(tr("Mesh"), tr("The objects, read and repaired."), stage({"mesh"}), bring(scene));
-  strip_->addStep(tr("Transfer"), tr("What is baked for the surface."), stage({"direct", "transfer"}), bring(transfer));
-  strip_->addStep(tr("Light"), tr("The environment that shines on it."),
-                  [this] { return session_.relighter().environment() ? ProductStatus::Fresh : ProductStatus::Missing; },
-                  bring(light));
+  strip_->addStep(tr("Transfer"), tr("What is baked for the surface."), stage({"direct", "transfer"}),
+                  bring(transfer));
+  strip_->addStep(
+      tr("Light"), tr("The environment that shines on it."),
+      [this] { return session_.relighter().environment() ? ProductStatus::Fresh : ProductStatus::Missing; },
+      bring(light));
 }
 
 void MainWindow::resetLayout() {
-  enum { kScene, kLight, kJobs, kLog, kMaterial, kTransfer };
-  for (QDockWidget* each : docks_) {
-    each->setFloating(false);
-    each->show();
-  }
-  for (const int left : {kScene, kLight, kJobs, kLog}) addDockWidget(Qt::LeftDockWidgetArea, docks_[left]);
-  for (const int right : {kMaterial, kTransfer}) addDockWidget(Qt::RightDockWidgetArea, docks_[right]);
-  tabifyDockWidget(docks_[kJobs], docks_[kLog]);
-  docks_[kJobs]->raise();
-  resizeDocks({docks_[kScene], docks_[kMaterial]}, {kLeftWidth, kRightWidth}, Qt::Horizontal);
-  resizeDocks({docks_[kScene], docks_[kLight], docks_[kJobs]}, {180, 468, 200}, Qt::Vertical);
-  resizeDocks({docks_[kMaterial], docks_[kTransfer]}, {500, 348}, Qt::Vertical);
+  layouts_->reset();
+}
+
+void MainWindow::makeSheets() {
+  palette_ = new CommandPalette(
+      this,
+      [this] {
+        return collectCommands(*this, session_, [this](const QString& line) { palette_->openWith(line); });
+      },
+      [this](const QString& line) { return assignment(session_, line); });
+  keys_ = new KeysOverlay(this, [this] { return bindings(); });
+}
+
+QList<BindingGroup> MainWindow::bindings() const {
+  QList<BindingGroup> groups{{tr("Viewport"), viewport_->bindings()},
+                             {tr("Numbers"), NumberField::bindings()}};
+  return groups + menuBindings(*menuBar());
 }
 
 void MainWindow::makeMenus() {
@@ -159,17 +177,19 @@ void MainWindow::makeMenus() {
 
 void MainWindow::makeFileMenu() {
   QMenu* menu = menuBar()->addMenu(tr("&File"));
-  menu->addAction(icon(QStringLiteral("document-open")), tr("&Open\u2026"), QKeySequence::Open, this, &MainWindow::openFile);
+  menu->addAction(icon(QStringLiteral("document-open")), tr("&Open\u2026"), QKeySequence::Open, this,
+                  &MainWindow::openFile);
   QMenu* samples = menu->addMenu(tr("S&amples"));
   for (const QString& name : session_.sampleScenes())
     samples->addAction(name, this, [this, name] { session_.open(QStringLiteral("scene:") + name); });
   menu->addSeparator();
   menu->addAction(icon(QStringLiteral("document-save")), tr("&Save project"), QKeySequence::Save, this,
                   [this] { saveProject(false); });
-  menu->addAction(icon(QStringLiteral("document-save-as")), tr("Save project &as\u2026"), QKeySequence::SaveAs, this,
-                  [this] { saveProject(true); });
+  menu->addAction(icon(QStringLiteral("document-save-as")), tr("Save project &as\u2026"),
+                  QKeySequence::SaveAs, this, [this] { saveProject(true); });
   menu->addSeparator();
-  menu->addAction(icon(QStringLiteral("application-exit")), tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
+  menu->addAction(icon(QStringLiteral("application-exit")), tr("&Quit"), QKeySequence::Quit, this,
+                  &QWidget::close);
 }
 
 void MainWindow::makeEditMenu() {
@@ -195,42 +215,130 @@ void MainWindow::makeViewMenu() {
                   [this] { session_.frameAll(); });
   menu->addAction(icon(QStringLiteral("go-home")), tr("&Reset view"), QKeySequence(Qt::Key_R), this,
                   [this] { session_.view().reset(); });
-  QAction* handles = menu->addAction(tr("&Light handles"), QKeySequence(Qt::Key_L), lightHandles_, &Manipulator::setEnabled);
+  QAction* handles =
+      menu->addAction(tr("&Light handles"), QKeySequence(Qt::Key_L), lightHandles_, &Manipulator::setEnabled);
   handles->setCheckable(true);
   handles->setChecked(lightHandles_->enabled());
   handles->setObjectName(QStringLiteral("lightHandles"));
   menu->addSeparator();
   for (QDockWidget* dock : docks_) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
-  menu->addAction(icon(QStringLiteral("view-refresh")), tr("Reset window &layout"), this, &MainWindow::resetLayout);
+  makeLayoutMenu(*menu);
+  makeThemeMenu(*menu);
+}
+
+void MainWindow::makeLayoutMenu(QMenu& view) {
+  QMenu* menu = view.addMenu(tr("&Layout"));
+  auto* group = new QActionGroup(this);
+  int key = Qt::Key_F5;
+  for (const LayoutPlan& plan : layouts_->plans()) {
+    QAction* action = menu->addAction(plan.title, QKeySequence(key++), this,
+                                      [this, name = plan.name] { layouts_->choose(name); });
+    action->setCheckable(true);
+    action->setToolTip(plan.tip);
+    action->setStatusTip(plan.tip);
+    group->addAction(action);
+    connect(layouts_, &Layouts::chosen, action,
+            [action, name = plan.name](const QString& now) { action->setChecked(now == name); });
+    strip_->addLayoutChoice(action);
+  }
+  menu->addSeparator();
+  menu->addAction(icon(QStringLiteral("view-refresh")), tr("Reset window &layout"), this,
+                  &MainWindow::resetLayout);
+}
+
+void MainWindow::makeThemeMenu(QMenu& view) {
+  QMenu* menu = view.addMenu(tr("&Theme"));
+  auto* group = new QActionGroup(this);
+  for (const Theme* each : {&darkTheme(), &lightTheme()}) {
+    QAction* action = menu->addAction(each == &darkTheme() ? tr("&Dark") : tr("&Light"), this, [each] {
+      applyTheme(*qApp, *each);
+      QSettings().setValue(QStringLiteral("theme"), each->name);
+    });
+    action->setCheckable(true);
+    action->setChecked(theme().name == each->name);
+    group->addAction(action);
+  }
 }
 
 void MainWindow::makeHelpMenu() {
   QMenu* menu = menuBar()->addMenu(tr("&Help"));
-  menu->addAction(icon(QStringLiteral("help-about")), tr("&Keys and mouse"), QKeySequence(Qt::Key_Question), this,
-                  &MainWindow::showKeys);
+  QAction* find =
+      menu->addAction(icon(QStringLiteral("edit-find")), tr("&Find a command\u2026"), palette_, &Sheet::open);
+  find->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_K), QKeySequence(Qt::Key_F3)});
+  menu->addAction(icon(QStringLiteral("help-about")), tr("&Keys and mouse"), QKeySequence(Qt::Key_Question),
+                  keys_, &Sheet::open);
 }
 
 void MainWindow::makeStatusBar() {
   statusBar()->setSizeGripEnabled(false);
   statusBar()->addWidget(fileLabel_);
+  statusBar()->addWidget(sizeLabel_);
   statusBar()->addWidget(hintLabel_, 1);
   statusBar()->addPermanentWidget(memoryLabel_);
+  sizeLabel_->setObjectName(QStringLiteral("sizeLabel"));
+  sizeLabel_->setToolTip(
+      tr("Size of the scene, width \u00d7 height \u00d7 depth. One unit of a file counts as one metre."));
+  hintLabel_->setObjectName(QStringLiteral("hintLabel"));
   hintLabel_->setAlignment(Qt::AlignCenter);
-  hintLabel_->setText(viewport_->hint());
   hintLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  memoryLabel_->setObjectName(QStringLiteral("memoryLabel"));
   memoryLabel_->setToolTip(tr("Memory that the studio uses."));
-  connect(viewport_, &Viewport::hintChanged, hintLabel_, &QLabel::setText);
+  connect(viewport_, &Viewport::hintChanged, this, &MainWindow::refreshHint);
+  connect(&session_.relighter(), &Relighter::sceneChanged, this, &MainWindow::refreshSize);
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, [this] { memoryLabel_->setText(residentMemory()); });
   timer->start(1000);
   memoryLabel_->setText(residentMemory());
+  refreshHint();
+}
+
+// What the mouse does where it is: a widget's status tip, else the viewport's.
+void MainWindow::refreshHint() {
+  hintLabel_->setText(tip_.isEmpty() ? viewport_->hint() : tip_);
+}
+
+void MainWindow::refreshSize() {
+  const Box3 box = session_.bounds();
+  const Vec3 size = box.high - box.low;
+  const bool any = session_.relighter().scene() && size.x >= 0;
+  const auto text = [](float v) { return QString::number(double(v), 'g', 3); };
+  sizeLabel_->setText(any ? tr("%1 \u00d7 %2 \u00d7 %3 m").arg(text(size.x), text(size.y), text(size.z))
+                          : QString());
+}
+
+void MainWindow::setPictureMode(bool on) {
+  memoryLabel_->setVisible(!on);
+  session_.log().setTimeless(on);
+  viewport_->setPictureMode(on);
+}
+
+bool MainWindow::bringToFront(const QString& name) {
+  auto* dock = findChild<QDockWidget*>(name);
+  if (!dock) return false;
+  dock->show();
+  dock->raise();
+  return true;
+}
+
+QStringList MainWindow::dockNames() const {
+  QStringList names;
+  for (const QDockWidget* dock : docks_) names << dock->objectName();
+  return names;
+}
+
+bool MainWindow::event(QEvent* event) {
+  if (event->type() != QEvent::StatusTip) return QMainWindow::event(event);
+  tip_ = static_cast<QStatusTipEvent*>(event)->tip();
+  refreshHint();
+  return true;
 }
 
 void MainWindow::openFile() {
   const QString file = QFileDialog::getOpenFileName(
       this, tr("Open"), {},
-      tr("Everything (*.prt *.json *.obj *.ply *.off *.stl *.gltf *.glb *.hdr *.exr *.png);;Projects (*.prt);;"
+      tr("Everything (*.prt *.json *.obj *.ply *.off *.stl *.gltf *.glb *.hdr *.exr *.png);;Projects "
+         "(*.prt);;"
          "Meshes (*.obj *.ply *.off *.stl *.gltf *.glb);;Environments (*.hdr *.exr *.png);;All files (*)"));
   if (!file.isEmpty()) session_.open(file);
 }
@@ -247,7 +355,8 @@ void MainWindow::saveProject(bool askForName) {
 void MainWindow::refreshTitle() {
   const Document& document = session_.document();
   const QString name = document.title().isEmpty() ? tr("Untitled") : document.title();
-  setWindowTitle(QStringLiteral("%1%2 \u2014 PRT Studio").arg(name, document.modified() ? QStringLiteral(" *") : QString()));
+  setWindowTitle(QStringLiteral("%1%2 \u2014 PRT Studio")
+                     .arg(name, document.modified() ? QStringLiteral(" *") : QString()));
   fileLabel_->setText(name + (document.modified() ? tr(" \u00b7 edited") : QString()));
   fileLabel_->setToolTip(document.path());
 }
@@ -261,23 +370,6 @@ void MainWindow::placeMessage() {
   message_->raise();
 }
 
-void MainWindow::showKeys() {
-  QMessageBox box(this);
-  box.setWindowTitle(tr("Keys and mouse"));
-  box.setText(tr(
-      "<table cellspacing='6'>"
-      "<tr><td><b>Shift + drag</b></td><td>turn the environment (either button)</td></tr>"
-      "<tr><td><b>Alt + left drag</b>, <b>middle drag</b></td><td>orbit</td></tr>"
-      "<tr><td>the same with <b>Shift</b></td><td>pan</td></tr>"
-      "<tr><td><b>Wheel</b></td><td>zoom towards the pointer</td></tr>"
-      "<tr><td><b>F</b>, <b>R</b></td><td>frame all, reset the view</td></tr>"
-      "<tr><td><b>Drag a light, its rim</b></td><td>move it around the model, resize it; <b>L</b> hides the handles</td></tr>"
-      "<tr><td><b>Ctrl+Z</b>, <b>Ctrl+Shift+Z</b></td><td>undo, redo</td></tr>"
-      "<tr><td><b>Drag a number</b></td><td>scrub; Shift fine, Ctrl coarse; double click resets</td></tr>"
-      "<tr><td><b>Drop a file</b></td><td>mesh, project, HDR</td></tr></table>"));
-  box.exec();
-}
-
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
   if (message_->isVisible()) placeMessage();
@@ -286,7 +378,7 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 void MainWindow::closeEvent(QCloseEvent* event) {
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-  settings.setValue(QStringLiteral("window/layout"), saveState(kLayoutVersion));
+  layouts_->save(settings);
   event->accept();
 }
 

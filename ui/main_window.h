@@ -1,12 +1,18 @@
 #pragma once
 // The studio's window: the viewport in the middle, docks around it, what the mouse does at the bottom.
 
+#include "ui/widgets/binding.h"
+
 #include <QMainWindow>
 
 class QLabel;
+class QMenu;
 
 namespace prt::ui {
 
+class CommandPalette;
+class KeysOverlay;
+class Layouts;
 class LightHandles;
 class MessageBar;
 class Session;
@@ -22,37 +28,57 @@ class MainWindow : public QMainWindow {
   Viewport& viewport() { return *viewport_; }
   LightHandles& lightHandles() { return *lightHandles_; }
   MessageBar& messageBar() { return *message_; }
+  CommandPalette& commandPalette() { return *palette_; }
+  KeysOverlay& keys() { return *keys_; }
+  Layouts& layouts() { return *layouts_; }
+  /// The current mood's docks as they are planned.
   void resetLayout();
+  /// Shows a dock in front of those it shares a place with. False when there is none of this name.
+  bool bringToFront(const QString& dock);
+  QStringList dockNames() const;
+  /// Leaves out what differs from one time to the next: times, memory.
+  void setPictureMode(bool on);
+  /// What all keys and mouse movements do, place by place.
+  QList<BindingGroup> bindings() const;
 
  protected:
+  bool event(QEvent* event) override;
   void closeEvent(QCloseEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
   QDockWidget* addDock(const QString& title, const QString& name, QWidget* content, Qt::DockWidgetArea area);
   void makeDocks();
+  void makeSheets();
   void makeMenus();
   void makeFileMenu();
   void makeEditMenu();
   void makeViewMenu();
+  void makeLayoutMenu(QMenu& view);
+  void makeThemeMenu(QMenu& view);
   void makeHelpMenu();
   void makeStatusBar();
   void openFile();
   void saveProject(bool askForName);
   void refreshTitle();
   void placeMessage();
-  void showKeys();
+  void refreshHint();
+  void refreshSize();
 
   Session& session_;
   Viewport* viewport_;
   LightHandles* lightHandles_;
   MessageBar* message_;
   class WorkflowStrip* strip_;
+  Layouts* layouts_;
+  CommandPalette* palette_ = nullptr;
+  KeysOverlay* keys_ = nullptr;
   QLabel* fileLabel_;
+  QLabel* sizeLabel_;
   QLabel* memoryLabel_;
   QLabel* hintLabel_;
+  QString tip_;  // of the widget under the pointer
   QList<QDockWidget*> docks_;
-  QByteArray firstLayout_;
 };
 
 }  // namespace prt::ui

@@ -3,6 +3,8 @@
 #include "ui/main_window.h"
 #include "ui/model/session.h"
 #include "ui/viewport/viewport.h"
+#include "ui/window/command_palette.h"
+#include "ui/window/keys_overlay.h"
 
 #include <QApplication>
 #include <QTimer>
@@ -13,23 +15,30 @@ namespace prt::ui {
 
 namespace {
 constexpr int kPollMilliseconds = 50;
-constexpr int kSettleMilliseconds = 400;  // the last frame, with smooth edges
+constexpr int kCalm = 4;  // polls in a row with nothing left to do: layouts and queued signals have settled
 }  // namespace
 
-int takeScreenshot(QApplication& application, MainWindow& window, Session& session, const QString& file) {
+int takeScreenshot(QApplication& application, MainWindow& window, Session& session,
+                   const ScreenshotOptions& options) {
   QString problem;
   QObject::connect(&session, &Session::message, &window, [&](Severity severity, const QString& text, Place) {
     if (severity == Severity::Error && problem.isEmpty()) problem = text;
   });
+  window.setPictureMode(true);
+  if (!options.dock.isEmpty()) window.bringToFront(options.dock);
   QTimer poll;
+  int calm = 0;
   QObject::connect(&poll, &QTimer::timeout, &window, [&] {
-    if (problem.isEmpty() && !session.settled()) return;
-    poll.stop();
-    QTimer::singleShot(kSettleMilliseconds, &window, [&] { QApplication::exit(problem.isEmpty() ? 0 : 1); });
+    const bool done = session.settled() && session.bakes().fresh() && window.viewport().canvas().settled();
+    calm = done ? calm + 1 : 0;
+    if (calm >= kCalm || !problem.isEmpty()) QApplication::exit();
   });
   poll.start(kPollMilliseconds);
   application.exec();
-  if (problem.isEmpty() && !window.grab().save(file)) problem = QStringLiteral("%1: cannot be written").arg(file);
+  if (options.sheet == u"palette") window.commandPalette().open();
+  if (options.sheet == u"keys") window.keys().open();
+  if (problem.isEmpty() && !window.grab().save(options.file))
+    problem = QStringLiteral("%1: cannot be written").arg(options.file);
   if (problem.isEmpty()) return 0;
   std::fprintf(stderr, "prt-studio: %s\n", qPrintable(problem));
   return 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of the window for the docs.
+// Pictures of the window for the docs: the same bytes each time.
 
 #include <QString>
 
@@ -10,8 +10,16 @@ namespace prt::ui {
 class MainWindow;
 class Session;
 
-/// Waits until everything is loaded and baked, writes the window to `file` and returns the exit status:
-/// 0, or 1 with a line on stderr when something failed.
-int takeScreenshot(QApplication& application, MainWindow& window, Session& session, const QString& file);
+struct ScreenshotOptions {
+  QString file;
+  QString dock;   ///< brought to the front of its place first; empty leaves the docks as they are
+  QString sheet;  ///< "palette" or "keys": opened over the window
+};
+
+/// Waits until everything is loaded, baked and drawn to its last pass, writes the window with all that lies
+/// over the picture to the file and returns the exit status: 0, or 1 with a line on stderr when something
+/// failed. Times and memory are left out.
+int takeScreenshot(QApplication& application, MainWindow& window, Session& session,
+                   const ScreenshotOptions& options);
 
 }  // namespace prt::ui

@@ -1,6 +1,5 @@
 // prt-studio: opens what it is given, or the built-in default scene.
 
-#include "libprt/core/cpu.h"
 #include "ui/main_window.h"
 #include "ui/model/session.h"
 #include "ui/screenshot.h"
@@ -9,6 +8,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QSettings>
 
 #include <cstdio>
 #include <optional>
@@ -18,20 +18,35 @@ namespace {
 struct Options {
   QString what = QStringLiteral("scene:default");
   bool resetUi = false;
-  QString screenshot;
+  QString theme;  // empty: as it was last time
+  prt::ui::ScreenshotOptions screenshot;
   QSize size{1440, 900};
 };
 
 // Ends the program itself for --help, --version and wrong usage.
 Options parse(const QApplication& application) {
   QCommandLineParser parser;
-  parser.setApplicationDescription(QStringLiteral("Authors and relights objects whose light transport is baked.\n\nExample: prt-studio bunny.obj"));
+  parser.setApplicationDescription(QStringLiteral(
+      "Authors and relights objects whose light transport is baked.\n\nExample: prt-studio bunny.obj"));
   parser.addHelpOption();
   parser.addVersionOption();
-  parser.addPositionalArgument(QStringLiteral("INPUT"), QStringLiteral("mesh, project (.prt), recipe (.json), or scene:NAME; without one the default scene"), QStringLiteral("[INPUT]"));
-  parser.addOptions({{QStringLiteral("reset-ui"), QStringLiteral("start with the default window layout")},
-                     {QStringLiteral("screenshot"), QStringLiteral("bake, write a picture of the window to FILE and end"), QStringLiteral("FILE")},
-                     {QStringLiteral("size"), QStringLiteral("size of the window, 1440x900 by default"), QStringLiteral("WxH")}});
+  parser.addPositionalArgument(
+      QStringLiteral("INPUT"),
+      QStringLiteral("mesh, project (.prt), recipe (.json), or scene:NAME; without one the default scene"),
+      QStringLiteral("[INPUT]"));
+  parser.addOptions(
+      {{QStringLiteral("reset-ui"), QStringLiteral("start with the default window layout")},
+       {QStringLiteral("screenshot"), QStringLiteral("bake, write a picture of the window to FILE and end"),
+        QStringLiteral("FILE")},
+       {QStringLiteral("dock"),
+        QStringLiteral("dock that the picture shows in front: scene, light, jobs ..."),
+        QStringLiteral("NAME")},
+       {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
+        QStringLiteral("NAME")},
+       {QStringLiteral("theme"), QStringLiteral("dark or light; kept when chosen from the menu"),
+        QStringLiteral("NAME")},
+       {QStringLiteral("size"), QStringLiteral("size of the window, 1440x900 by default"),
+        QStringLiteral("WxH")}});
   parser.process(application);
 
   const auto wrong = [](const QString& what) {
@@ -42,15 +57,33 @@ Options parse(const QApplication& application) {
   if (parser.positionalArguments().size() > 1) wrong(QStringLiteral("one input at most"));
   if (!parser.positionalArguments().isEmpty()) options.what = parser.positionalArguments().first();
   options.resetUi = parser.isSet(QStringLiteral("reset-ui"));
-  options.screenshot = parser.value(QStringLiteral("screenshot"));
+  options.screenshot.file = parser.value(QStringLiteral("screenshot"));
+  options.screenshot.dock = parser.value(QStringLiteral("dock"));
+  options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
+  if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
+      options.screenshot.sheet != u"keys")
+    wrong(QStringLiteral("--sheet takes palette or keys"));
+  options.theme = parser.value(QStringLiteral("theme"));
+  if (parser.isSet(QStringLiteral("theme")) && !prt::ui::themeNamed(options.theme))
+    wrong(QStringLiteral("--theme takes dark or light"));
   if (parser.isSet(QStringLiteral("size"))) {
     const QStringList sides = parser.value(QStringLiteral("size")).split(u'x');
     bool width = false, height = false;
     if (sides.size() == 2) options.size = QSize(sides[0].toInt(&width), sides[1].toInt(&height));
-    if (!width || !height || options.size.width() < 640 || options.size.height() < 400 || options.size.width() > 8192 || options.size.height() > 8192)
+    if (!width || !height || options.size.width() < 640 || options.size.height() < 400 ||
+        options.size.width() > 8192 || options.size.height() > 8192)
       wrong(QStringLiteral("--size takes WIDTHxHEIGHT between 640x400 and 8192x8192"));
   }
   return options;
+}
+
+// A picture for the docs does not depend on how the window was left.
+const prt::ui::Theme& themeOf(const Options& options) {
+  using namespace prt::ui;
+  const bool kept = options.theme.isEmpty() && options.screenshot.file.isEmpty();
+  const Theme* chosen =
+      themeNamed(kept ? QSettings().value(QStringLiteral("theme")).toString() : options.theme);
+  return chosen ? *chosen : darkTheme();
 }
 
 }  // namespace
@@ -62,12 +95,19 @@ int main(int argc, char** argv) {
   QApplication::setOrganizationName(QStringLiteral("PRT Studio"));
   QApplication::setApplicationVersion(QStringLiteral(PRT_VERSION));
   const Options options = parse(application);
-  prt::ui::applyTheme(application, prt::ui::darkTheme());
+  QApplication::setDesktopFileName(QStringLiteral("prt-studio"));
+  QApplication::setWindowIcon(prt::ui::applicationIcon());
+  prt::ui::applyTheme(application, themeOf(options));
 
   prt::ui::Session session;
-  // A picture for the docs does not depend on how the window was left.
-  const bool picture = !options.screenshot.isEmpty();
+  const bool picture = !options.screenshot.file.isEmpty();
   prt::ui::MainWindow window(session, options.resetUi || picture);
+  if (!options.screenshot.dock.isEmpty() && !window.dockNames().contains(options.screenshot.dock)) {
+    std::fprintf(stderr, "prt-studio: there is no dock '%s'; there are %s\n",
+                 qPrintable(options.screenshot.dock),
+                 qPrintable(window.dockNames().join(QStringLiteral(", "))));
+    return 2;
+  }
   if (picture) window.resize(options.size);
   window.show();
   session.open(options.what);

@@ -256,11 +256,18 @@ void SceneRenderer::draw(const Picture& picture, unsigned framebuffer) {
   }
   drawToned(picture, samples);
   glDisable(GL_BLEND);
+  passCount_ = picture.pass + 1;
+  showAgain(framebuffer);
+}
 
+void SceneRenderer::showAgain(unsigned framebuffer) {
+  if (!passes_) return;
+  glDisable(GL_DEPTH_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, picture.width, picture.height);
+  glViewport(0, 0, passes_.width(), passes_.height());
+  glBindVertexArray(emptyArray_.id());
   passes_.colour().bind(kOneSampleUnit);
-  meanProgram_.set("count", float(picture.pass + 1));
+  meanProgram_.set("count", float(passCount_));
   meanProgram_.use();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);

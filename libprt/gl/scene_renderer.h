@@ -74,6 +74,8 @@ class SceneRenderer {
 
   /// Draws into `framebuffer` (0 = the window), tone-mapped, over its whole width x height.
   void draw(const Picture& picture, unsigned framebuffer);
+  /// What draw() showed last, without drawing anything: a series of passes does not go on.
+  void showAgain(unsigned framebuffer);
   /// Linear radiance: float RGBA, alpha = coverage, rows from the top.
   Image render(const Picture& picture);
   /// As draw(), read back: values 0..1 on the screen's curve.
@@ -98,6 +100,7 @@ class SceneRenderer {
   Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_;
   Texture environment_;
   Framebuffer radiance_, passes_;
+  int passCount_ = 0;  // summed in passes_
   PixelFormat radianceFormat_ = PixelFormat::Rgba16f;
   std::vector<Material> materials_;
   std::vector<std::uint32_t> back_;

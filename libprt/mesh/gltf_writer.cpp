@@ -38,6 +38,9 @@ class Writer {
     if (!options_.colors.empty())
       attributes["COLOR_0"] =
           perVertex<Vec3>("VEC3", [&](std::size_t i) { return options_.colors[split_.vertex[i]]; });
+    if (options_.vertexNumbers)
+      attributes["_VERTEX"] =
+          perVertex<float>("SCALAR", [&](std::size_t i) { return float(split_.vertex[i]); });
     const int indices = view(split_.triangles.data(), split_.triangles.size() * sizeof(UVec3), kIndexData);
     accessors_.push_back({{"bufferView", indices},
                           {"componentType", kUnsigned},

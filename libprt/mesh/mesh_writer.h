@@ -19,6 +19,9 @@ struct MeshWriteOptions {
   Rgb baseColor{0.8f};        ///< linear; glTF's material when there are no colours
   /// glTF only: the colours are light that leaves the surface, not to be lit again (KHR_materials_unlit).
   bool unlit = false;
+  /// glTF only: attribute _VERTEX, the number that each vertex has in the mesh, as a float (below 2^24
+  /// exact). Vertices doubled at seams share one.
+  bool vertexNumbers = false;
 };
 
 /// Writes .obj, .ply (binary), .off, .stl (binary), .gltf (buffer inside) or .glb, as the extension says.

@@ -24,11 +24,14 @@ struct ExportInput {
 /// Files that were written, relative to the folder.
 using ExportedFiles = std::vector<std::string>;
 
-/// .npy files, little-endian, C order, float32 (indices int32); V vertices of the scene, F faces, k = bands^2:
+/// .npy files, little-endian, C order, float32 (indices int32); V vertices of the scene, F faces, k =
+/// bands^2:
 ///   positions, normals, tangents [V,3]; faces [F,3]; uv [V',2], uv_faces [F,3] where meshes have them
 ///   transfer [V,k,k] or [V,k,k,3]: row = transferred, column = light, object frame; every form but Diffuse
 ///   transfer_diffuse [V,k] or [V,k,3]: exit radiance of a white Lambert surface per light coefficient
-///   albedo [V,3]; object [V] int32
+///   albedo [V,3]; object [V] int32; specular [O,3] of each object, 0 where it is not glossy
+///   response [O,512,n,n]: where something is glossy and the form can show it, GlossyResponse as a table,
+///   view angle, lobe, band; zeros for objects that are not (docs/handover.md)
 ///   light [k,3]: coefficients of the current lights
 /// Throws ResourceError when the expanded matrices do not fit in memory, FileError when it cannot write.
 ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job);
@@ -38,8 +41,10 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
 /// each camera, 960 x 540.
 ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& folder, Job& job);
 
-/// scene.glb: the whole scene as one mesh and, as unlit vertex colours, its diffuse exit radiance under the
-/// current lights, times 2^exposure, clamped to 0..1.
-ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure, Job& job);
+/// scene.glb: the whole scene as one mesh with attribute _VERTEX (each vertex's row in exportNpy's arrays)
+/// and, as unlit vertex colours, its diffuse exit radiance under the current lights, times 2^exposure,
+/// clamped to 0..1.
+ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure,
+                         Job& job);
 
 }  // namespace prt

@@ -6,19 +6,24 @@
 #include "libprt/project/export_manifest.h"
 #include "libprt/project/lights.h"
 
+#include <algorithm>
+#include <functional>
+
 namespace prt {
 namespace {
 
 template <class V>
 Array rows(const std::vector<V>& vectors) {
   const float* first = vectors.empty() ? nullptr : &vectors[0][0];
-  return Array::from<float>(std::span(first, vectors.size() * std::size_t(V::length())), {std::int64_t(vectors.size()), V::length()});
+  return Array::from<float>(std::span(first, vectors.size() * std::size_t(V::length())),
+                            {std::int64_t(vectors.size()), V::length()});
 }
 
 Array indices(const std::vector<UVec3>& triangles) {
   std::vector<std::int32_t> flat;
   flat.reserve(3 * triangles.size());
-  for (const UVec3& t : triangles) flat.insert(flat.end(), {std::int32_t(t.x), std::int32_t(t.y), std::int32_t(t.z)});
+  for (const UVec3& t : triangles)
+    flat.insert(flat.end(), {std::int32_t(t.x), std::int32_t(t.y), std::int32_t(t.z)});
   return Array::from<std::int32_t>(std::span<const std::int32_t>(flat), {std::int64_t(triangles.size()), 3});
 }
 
@@ -33,8 +38,10 @@ std::vector<Vec3> vertexTangents(const TriMesh& mesh, const TangentFrames& frame
   for (std::size_t v = 0; v < sums.size(); ++v) {
     const Vec3& n = mesh.normals[v];
     const Vec3 flat = sums[v] - n * dot(n, sums[v]);
-    if (length(flat) > 0.1f) sums[v] = normalize(flat);
-    else sums[v] = any[v] == Vec3(0) ? frameFromNormal(n).tangent : any[v];
+    if (length(flat) > 0.1f)
+      sums[v] = normalize(flat);
+    else
+      sums[v] = any[v] == Vec3(0) ? frameFromNormal(n).tangent : any[v];
   }
   return sums;
 }
@@ -52,13 +59,57 @@ Array whiteLambert(const Transfer& transfer, std::span<const Vec3> normals) {
   if (transfer.form == TransferForm::None) {
     std::vector<float> values(normals.size() * std::size_t(k));
     for (std::size_t s = 0; s < normals.size(); ++s)
-      lambertResponse(transfer.bands, normals[s], std::span(values).subspan(s * std::size_t(k), std::size_t(k)));
+      lambertResponse(transfer.bands, normals[s],
+                      std::span(values).subspan(s * std::size_t(k), std::size_t(k)));
     return Array::from<float>(std::span<const float>(values), {std::int64_t(normals.size()), k});
   }
   Array vectors = diffuseVectors(transfer);
   auto* values = reinterpret_cast<float*>(vectors.bytes.data());
   for (std::size_t i = 0; i < vectors.size(); ++i) values[i] /= kPiF;
   return vectors;
+}
+
+constexpr int kResponseRows = 512;  // so fine that straight interpolation between rows does not show
+
+/// [O,rows,lobes,bands] of every object, zeros where it is not glossy: how GlossyResponse answers, for
+/// shaders.
+Array glossyResponses(const std::vector<ObjectRecipe>& objects, int bands) {
+  const std::size_t n = std::size_t(bands), rowSize = n * n;
+  std::vector<float> all(objects.size() * kResponseRows * rowSize, 0.0f), weights(rowSize);
+  float* to = all.data();
+  for (const ObjectRecipe& object : objects) {
+    if (!object.material.glossy()) {
+      to += kResponseRows * rowSize;
+      continue;
+    }
+    const GlossyResponse response(object.material.exponent, bands);
+    for (int row = 0; row < kResponseRows; ++row, to += rowSize) {
+      const float away = 1 - float(row) / float(kResponseRows - 1);
+      response.weightsAt(0.5f * kPiF * (1 - away * away), weights);
+      for (std::size_t lobe = 0; lobe < n; ++lobe)
+        for (std::size_t l = 0; l < n; ++l) to[lobe * n + l] = weights[l * n + lobe];
+    }
+  }
+  return Array::from<float>(std::span<const float>(all),
+                            {std::int64_t(objects.size()), kResponseRows, bands, bands});
+}
+
+using Write = std::function<void(const std::string& name, const Array& array, const std::string& doc)>;
+
+/// What a Phong lobe needs beside the matrices.
+void writeGloss(const ExportInput& input, const Write& write) {
+  std::vector<Vec3> specular;
+  for (const ObjectRecipe& object : input.recipe.objects)
+    specular.push_back(object.material.glossy() ? Vec3(object.material.specular) : Vec3(0));
+  write("specular", rows(specular), "specular colour of each object, linear Rec.709; 0 = not glossy");
+  const Transfer& transfer = input.baked.transfer->transfer;
+  const bool glossy =
+      std::any_of(specular.begin(), specular.end(), [](const Vec3& c) { return c != Vec3(0); });
+  if (!glossy || transfer.form == TransferForm::Diffuse || transfer.bands > kMaxResponseBands) return;
+  write("response", glossyResponses(input.recipe.objects, transfer.bands),
+        "per object: [view angle, lobe, band] weights of the Phong lobe's zonal lobes; row = "
+        "(rows-1) (1 - sqrt(1 - angle / (pi/2))), lobe j stands pi j / bands from the normal towards the "
+        "viewer");
 }
 
 }  // namespace
@@ -69,8 +120,16 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   const Transfer& transfer = input.baked.transfer->transfer;
   const std::size_t vertices = scene.mesh.vertexCount();
   ExportManifest manifest(folder, "npy");
-  manifest.set("vertices", vertices).set("samples", samples.size()).set("faces", scene.mesh.triangleCount()).set("bands", transfer.bands).set("functions", transfer.functions());
-  manifest.set("final", input.baked.final()).set("rays_per_sample", transfer.raysPerSample).set("bounces", transfer.bounces);
+  manifest.set("vertices", vertices)
+      .set("samples", samples.size())
+      .set("samples", samples.size())
+      .set("faces", scene.mesh.triangleCount())
+      .set("bands", transfer.bands)
+      .set("functions", transfer.functions());
+  manifest.set("final", input.baked.final())
+      .set("rays_per_sample", transfer.raysPerSample)
+      .set("bounces", transfer.bounces);
+  manifest.setCameras(input.recipe, scene.mesh.bounds());
   job.begin("arrays", 0);
   const auto write = [&](const std::string& name, const Array& array, const std::string& doc) {
     job.checkCancelled();
@@ -79,19 +138,22 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   };
   write("positions", rows(scene.mesh.positions), "vertices in the common object frame");
   write("normals", rows(scene.mesh.normals), "unit shading normals");
-  write("tangents", rows(vertexTangents(scene.mesh, input.frames->frames)), "unit tangents, at a right angle to the normals");
+  write("tangents", rows(vertexTangents(scene.mesh, input.frames->frames)),
+        "unit tangents, at a right angle to the normals");
   write("faces", indices(scene.mesh.triangles), "corners of each triangle, counter-clockwise from outside");
   if (!scene.mesh.uv.empty()) {
     write("uv", rows(scene.mesh.uv), "texture coordinates, v up");
     write("uv_faces", indices(scene.mesh.uvTriangles), "corners of each triangle in uv");
   }
   std::vector<std::int32_t> object(scene.vertexObject.begin(), scene.vertexObject.end());
-  write("object", Array::from<std::int32_t>(std::span<const std::int32_t>(object), {std::int64_t(vertices)}), "object of each vertex");
+  write("object", Array::from<std::int32_t>(std::span<const std::int32_t>(object), {std::int64_t(vertices)}),
+        "object of each vertex");
   std::vector<Vec3> albedo;
   for (const std::uint32_t o : scene.vertexObject) albedo.push_back(input.recipe.objects[o].material.albedo);
   write("albedo", rows(albedo), "diffuse reflectance, linear Rec.709");
   const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
   write("light", rows(light.c), "coefficients of the current lights, index l(l+1)+m");
+  writeGloss(input, write);
   if (transfer.form != TransferForm::Diffuse)
     write("transfer", firstRows(expandedMatrices(transfer), vertices),
           "row = transferred incident radiance, column = light, both in the object frame");

@@ -7,7 +7,8 @@
 
 namespace prt {
 
-ExportManifest::ExportManifest(std::filesystem::path folder, const std::string& kind) : folder_(std::move(folder)) {
+ExportManifest::ExportManifest(std::filesystem::path folder, const std::string& kind)
+    : folder_(std::move(folder)) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (!std::filesystem::is_directory(folder_, error))
@@ -22,10 +23,28 @@ ExportManifest::ExportManifest(std::filesystem::path folder, const std::string& 
            {"files", nlohmann::json::object()}};
 }
 
+void ExportManifest::setCameras(const Recipe& recipe, const Box3& bounds) {
+  nlohmann::json list = nlohmann::json::array();
+  const auto vector = [](const Vec3& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const auto add = [&](const std::string& name, const Camera& c) {
+    list.push_back({{"name", name},
+                    {"eye", vector(c.eye)},
+                    {"target", vector(c.target)},
+                    {"up", vector(c.up)},
+                    {"vfov_deg", degrees(c.verticalFov)}});
+  };
+  for (const CameraRecipe& camera : recipe.cameras) add(camera.name, camera.camera());
+  if (recipe.cameras.empty()) add("default", frameBox(bounds));
+  json_["cameras"] = list;
+}
+
 void ExportManifest::addArray(const std::string& name, const Array& array, const std::string& doc) {
   const std::string file = name + ".npy";
   files_.push_back(file);
-  json_["files"][file] = {{"name", name}, {"dtype", array.dtype == DType::i32 ? "int32" : "float32"}, {"shape", array.shape}, {"doc", doc}};
+  json_["files"][file] = {{"name", name},
+                          {"dtype", array.dtype == DType::i32 ? "int32" : "float32"},
+                          {"shape", array.shape},
+                          {"doc", doc}};
 }
 
 void ExportManifest::addFile(const std::string& file, const std::string& doc) {

@@ -21,6 +21,9 @@ class ExportManifest {
     json_[name] = value;
     return *this;
   }
+  /// "cameras": those of the recipe, or where it has none a "default" one that frames the scene, as
+  /// pictures are made with.
+  void setCameras(const Recipe& recipe, const Box3& bounds);
   /// A file NAME.npy.
   void addArray(const std::string& name, const Array& array, const std::string& doc);
   void addFile(const std::string& file, const std::string& doc);

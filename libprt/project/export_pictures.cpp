@@ -41,7 +41,8 @@ std::vector<Rgb> vertexColors(const ExportInput& input, double exposure) {
   colors.resize(scene.mesh.vertexCount());
   const float scale = float(std::exp2(exposure)) / kPiF;
   for (std::size_t v = 0; v < colors.size(); ++v)
-    colors[v] = clamp(colors[v] * input.recipe.objects[scene.vertexObject[v]].material.albedo * scale, Rgb(0), Rgb(1));
+    colors[v] = clamp(colors[v] * input.recipe.objects[scene.vertexObject[v]].material.albedo * scale, Rgb(0),
+                      Rgb(1));
   return colors;
 }
 
@@ -66,22 +67,28 @@ ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& f
   PictureOptions options{960, 540};
   for (const CameraRecipe& camera : cameras) {
     const std::string file = "picture_" + fileName(camera.name) + ".exr";
-    writeImage(folder / file, relight(input.baked, input.recipe, input.lights, camera.camera(), options, job));
+    writeImage(folder / file,
+               relight(input.baked, input.recipe, input.lights, camera.camera(), options, job));
     manifest.addFile(file, "relit picture of camera " + camera.name + ", linear radiance, alpha = coverage");
   }
   return manifest.finish();
 }
 
-ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure, Job& job) {
+ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure,
+                         Job& job) {
   ExportManifest manifest(folder, "gltf");
   const std::vector<Rgb> colors = vertexColors(input, exposure);
   MeshWriteOptions options;
   options.colors = colors;
   options.name = "scene";
   options.unlit = true;
+  options.vertexNumbers = true;
   writeMesh(folder / "scene.glb", input.baked.geometry->scene->mesh, options, job);
   manifest.set("exposure", exposure);
-  manifest.addFile("scene.glb", "all objects with vertex colours: diffuse exit radiance under the current lights, 0..1");
+  manifest.setCameras(input.recipe, input.baked.geometry->scene->mesh.bounds());
+  manifest.addFile("scene.glb",
+                   "all objects as one mesh; COLOR_0 = diffuse exit radiance under the current lights, 0..1; "
+                   "_VERTEX = row of the arrays that --npy writes");
   return manifest.finish();
 }
 

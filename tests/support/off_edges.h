@@ -1,20 +1,25 @@
 #pragma once
-// Where two renderers can be held to the same value: pixels that do not lie on an edge of what is seen, where
-// each takes its samples of a pixel at places of its own.
+// Which pixels of a picture show the inside of a surface: where two renderers with different samples per
+// pixel must agree.
 
-#include "libprt/core/job.h"
 #include "libprt/shade/raster.h"
 
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace prt::test {
 
-/// Distance along the view of what each pixel's centre sees; 0 where nothing is.
-inline std::vector<float> depths(const TriMesh& mesh, const Camera& camera, int width, int height) {
+/// [height * width]: true where the pixel and its eight neighbours see surfaces of one object, nearly equally
+/// far away, or all of them see nothing. `triangleObject` is the object of each triangle.
+inline std::vector<bool> offEdges(const TriMesh& mesh, std::span<const std::uint32_t> triangleObject,
+                                  const Camera& camera, int width, int height) {
+  const std::size_t size = std::size_t(width) * std::size_t(height);
+  std::vector<float> depth(size, 0.0f);
+  std::vector<std::uint32_t> object(size, kNoTriangle);
   Job job;
   const FragmentImage view = rasterize(mesh, camera, width, height, 1, job);
-  std::vector<float> depth(std::size_t(width) * std::size_t(height), 0.0f);
   for (const FragmentTile& tile : view.tiles)
     for (int i = 0; i < tile.width * tile.height; ++i)
       for (const Fragment& f : tile.pixel(std::size_t(i))) {
@@ -22,26 +27,29 @@ inline std::vector<float> depths(const TriMesh& mesh, const Camera& camera, int 
         const Vec2& b = f.barycentric;
         const Vec3 p =
             (1 - b.x - b.y) * mesh.positions[t.x] + b.x * mesh.positions[t.y] + b.y * mesh.positions[t.z];
-        depth[std::size_t((tile.y + i / tile.width) * width + tile.x + i % tile.width)] =
-            length(p - camera.eye);
+        const auto pixel = std::size_t((tile.y + i / tile.width) * width + tile.x + i % tile.width);
+        depth[pixel] = length(p - camera.eye);
+        object[pixel] = triangleObject[f.triangle];
       }
-  return depth;
-}
-
-/// [width * height] whether a pixel's neighbours are as far away as it is.
-inline std::vector<bool> offEdges(const TriMesh& mesh, const Camera& camera, int width, int height) {
-  const std::vector<float> depth = depths(mesh, camera, width, height);
-  std::vector<bool> off(depth.size(), false);
+  std::vector<bool> off(size, false);
   for (int y = 1; y + 1 < height; ++y)
     for (int x = 1; x + 1 < width; ++x) {
-      const float here = depth[std::size_t(y * width + x)];
+      const auto here = std::size_t(y * width + x);
       bool smooth = true;
       for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-          smooth = smooth && std::abs(depth[std::size_t((y + j) * width + x + i)] - here) <= 0.03f * here;
-      off[std::size_t(y * width + x)] = smooth;
+        for (int i = -1; i <= 1; ++i) {
+          const auto near = std::size_t((y + j) * width + x + i);
+          smooth = smooth && object[near] == object[here] &&
+                   std::abs(depth[near] - depth[here]) <= 0.03f * depth[here];
+        }
+      off[here] = smooth;
     }
   return off;
+}
+
+/// The same where there is one object.
+inline std::vector<bool> offEdges(const TriMesh& mesh, const Camera& camera, int width, int height) {
+  return offEdges(mesh, std::vector<std::uint32_t>(mesh.triangleCount(), 0), camera, width, height);
 }
 
 }  // namespace prt::test

@@ -7,10 +7,10 @@ namespace {
 
 TEST(Expression, ReadsNumbersUnitsAndArithmetic) {
   const std::pair<const char*, double> cases[] = {
-      {"1.5", 1.5},     {" 42 ", 42},         {"-3", -3},        {"1e-3", 1e-3},    {".5", 0.5},
-      {"3*24", 72},     {"1+2*3", 7},         {"(1+2)*3", 9},    {"7/2", 3.5},      {"2^10", 1024},
-      {"-2^2", -4},     {"2^-1", 0.5},        {"2^3^2", 512},    {"1.5k", 1500},    {"2M", 2e6},
-      {"10 - 4 - 3", 3}, {"8/4/2", 1},        {"- - 5", 5},      {"3 \u00d7 4", 12}, {"\u22125", -5}};
+      {"1.5", 1.5},      {" 42 ", 42},  {"-3", -3},     {"1e-3", 1e-3},     {".5", 0.5},
+      {"3*24", 72},      {"1+2*3", 7},  {"(1+2)*3", 9}, {"7/2", 3.5},       {"2^10", 1024},
+      {"-2^2", -4},      {"2^-1", 0.5}, {"2^3^2", 512}, {"1.5k", 1500},     {"2M", 2e6},
+      {"10 - 4 - 3", 3}, {"8/4/2", 1},  {"- - 5", 5},   {"3 \u00d7 4", 12}, {"\u22125", -5}};
   for (const auto& [text, value] : cases) {
     const auto result = evaluateExpression(QString::fromUtf8(text));
     ASSERT_TRUE(result) << text;
@@ -18,11 +18,14 @@ TEST(Expression, ReadsNumbersUnitsAndArithmetic) {
   }
   EXPECT_EQ(evaluateExpression(QStringLiteral("45 deg"), QStringLiteral("degrees")), 45);
   EXPECT_EQ(evaluateExpression(QStringLiteral("90\u00b0"), QStringLiteral("degrees")), 90);
+  EXPECT_EQ(evaluateExpression(QStringLiteral("90 deg"), QStringLiteral("\u00b0")), 90)
+      << "the unit as fields show it";
   EXPECT_EQ(evaluateExpression(QStringLiteral("512 rays"), QStringLiteral("rays")), 512);
 }
 
 TEST(Expression, RefusesWhatIsNoNumber) {
-  for (const char* text : {"", " ", "abc", "1+", "(1", "1)", "1 2", "1..2", "--", "1/0", "0/0", "1e999", "*3", "k", "2^9999"})
+  for (const char* text :
+       {"", " ", "abc", "1+", "(1", "1)", "1 2", "1..2", "--", "1/0", "0/0", "1e999", "*3", "k", "2^9999"})
     EXPECT_FALSE(evaluateExpression(QString::fromUtf8(text))) << text;
 }
 
@@ -41,7 +44,7 @@ TEST(Format, NumbersHaveNoMoreDigitsThanTheyNeed) {
 
 TEST(Format, CountsAreGrouped) {
   EXPECT_EQ(formatCount(7), u"7");
-  EXPECT_EQ(formatCount(1234567), u"1\u2009234\u2009567");
+  EXPECT_EQ(formatCount(1234567), u"1\u202f234\u202f567");
   EXPECT_EQ(formatCount(-123), u"-123");
 }
 

@@ -1,16 +1,23 @@
 // The window as a whole: proportions, and layouts that are kept and reset.
 
 #include "tests/ui/studio_fixture.h"
+#include "ui/widgets/dock_title.h"
+#include "ui/window/layouts.h"
 
 #include <QDockWidget>
+#include <QFrame>
 #include <QSettings>
+#include <QTabBar>
+#include <QToolButton>
 
 namespace prt::ui {
 namespace {
 
 using test::pass;
 
-QString s(const char* text) { return QString::fromUtf8(text); }
+QString s(const char* text) {
+  return QString::fromUtf8(text);
+}
 
 TEST(Layout, TheViewportHasSixtyPercentOfADefaultWindow) {
   Session session;
@@ -24,7 +31,9 @@ TEST(Layout, TheViewportHasSixtyPercentOfADefaultWindow) {
 }
 
 TEST(Layout, IsKeptFromOneTimeToTheNextAndForgottenOnRequest) {
-  const auto dock = [](MainWindow& window, const char* name) { return window.findChild<QDockWidget*>(s(name)); };
+  const auto dock = [](MainWindow& window, const char* name) {
+    return window.findChild<QDockWidget*>(s(name));
+  };
   {
     Session session;
     MainWindow window(session, true);
@@ -56,7 +65,9 @@ TEST(Layout, IsKeptFromOneTimeToTheNextAndForgottenOnRequest) {
 
 TEST(Layout, ARuinedLayoutIsSurvived) {
   QSettings settings;
-  settings.setValue(s("window/layout"), QByteArray(300, '\x5a'));
+  settings.setValue(s("window/mood"), s("nonsense"));
+  for (const LayoutPlan& plan : layoutPlans())
+    settings.setValue(s("window/layout/") + plan.name, QByteArray(300, '\x5a'));
   settings.setValue(s("window/geometry"), QByteArray("nonsense"));
   Session session;
   MainWindow window(session, false);
@@ -64,6 +75,80 @@ TEST(Layout, ARuinedLayoutIsSurvived) {
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
   EXPECT_TRUE(window.viewport().isVisible());
   EXPECT_GT(window.viewport().width(), 300);
+}
+
+using LayoutWindow = test::StudioTest;
+
+TEST_F(LayoutWindow, TheStripChangesMoodsAndEachKeepsWhatWasMadeOfIt) {
+  const auto area = [&](const char* name) {
+    return window.dockWidgetArea(window.findChild<QDockWidget*>(s(name)));
+  };
+  const auto choose = [&](const char* title) {
+    for (QToolButton* button : window.findChild<QFrame*>(s("layoutChoices"))->findChildren<QToolButton*>())
+      if (button->text() == s(title)) QTest::mouseClick(button, Qt::LeftButton);
+    pass(30);
+  };
+  EXPECT_EQ(window.layouts().current(), s("relight"));
+  EXPECT_EQ(area("light"), Qt::LeftDockWidgetArea);
+  choose("Bake");
+  EXPECT_EQ(window.layouts().current(), s("bake"));
+  EXPECT_EQ(area("light"), Qt::RightDockWidgetArea);
+  window.addDockWidget(Qt::LeftDockWidgetArea, window.findChild<QDockWidget*>(s("transfer")));
+  choose("Relight");
+  EXPECT_EQ(area("light"), Qt::LeftDockWidgetArea);
+  EXPECT_EQ(area("transfer"), Qt::RightDockWidgetArea);
+  QTest::keyClick(handle(), Qt::Key_F5);
+  EXPECT_EQ(window.layouts().current(), s("bake"));
+  EXPECT_EQ(area("transfer"), Qt::LeftDockWidgetArea) << "as it was left";
+  window.resetLayout();
+  EXPECT_EQ(area("transfer"), Qt::RightDockWidgetArea);
+}
+
+TEST_F(LayoutWindow, EveryMoodShowsEveryDockAndLeavesThePictureItsSixtyPercent) {
+  window.resize(1440, 900);
+  for (const LayoutPlan& plan : window.layouts().plans()) {
+    window.layouts().choose(plan.name);
+    pass(50);
+    for (const QDockWidget* dock : window.findChildren<QDockWidget*>())
+      EXPECT_EQ(dock->isHidden(), plan.hidden.contains(dock->objectName()))
+          << dock->objectName().toStdString();
+    const QSize view = window.viewport().size();
+    EXPECT_GE(double(view.width()) * view.height(), 0.6 * 1440 * 900) << plan.name.toStdString();
+  }
+}
+
+TEST_F(LayoutWindow, ADoubleClickOnTheTitleFloatsADockAndItsButtonsWork) {
+  auto* dock = window.findChild<QDockWidget*>(s("scene"));
+  QTest::mouseDClick(dock->titleBarWidget(), Qt::LeftButton);
+  EXPECT_TRUE(dock->isFloating());
+  pass(50);
+  auto* bar = qobject_cast<DockTitle*>(dock->titleBarWidget());
+  QEnterEvent enter(QPointF(5, 5), QPointF(5, 5), QPointF(5, 5));
+  QCoreApplication::sendEvent(bar, &enter);
+  const QList<QToolButton*> buttons = bar->findChildren<QToolButton*>();
+  ASSERT_EQ(buttons.size(), 2);
+  QTest::mouseClick(buttons[0], Qt::LeftButton);
+  EXPECT_FALSE(dock->isFloating());
+  QCoreApplication::sendEvent(bar, &enter);
+  QTest::mouseClick(buttons[1], Qt::LeftButton);
+  EXPECT_TRUE(dock->isHidden());
+  dock->toggleViewAction()->trigger();
+  EXPECT_FALSE(dock->isHidden());
+}
+
+TEST_F(LayoutWindow, TabsBringDocksForward) {
+  QTabBar* tabs = nullptr;
+  for (QTabBar* bar : window.findChildren<QTabBar*>())
+    for (int i = 0; i < bar->count(); ++i)
+      if (bar->tabText(i) == s("Log")) tabs = bar;
+  ASSERT_TRUE(tabs);
+  auto* log = window.findChild<QDockWidget*>(s("log"));
+  EXPECT_TRUE(log->widget()->visibleRegion().isEmpty());
+  for (int i = 0; i < tabs->count(); ++i)
+    if (tabs->tabText(i) == s("Log"))
+      QTest::mouseClick(tabs, Qt::LeftButton, Qt::NoModifier, tabs->tabRect(i).center());
+  pass(30);
+  EXPECT_FALSE(log->widget()->visibleRegion().isEmpty());
 }
 
 TEST(Layout, AnEmptyStudioTeaches) {

@@ -6,16 +6,20 @@
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/panorama.h"
 #include "ui/widgets/property_row.h"
-#include "ui/widgets/theme.h"
 
 #include "libprt/core/error.h"
 
+#include <QApplication>
+#include <QClipboard>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QTimer>
 #include <QToolButton>
+#include <QToolTip>
 
 namespace prt::ui {
 namespace {
@@ -24,7 +28,9 @@ using test::pass;
 using test::smallScene;
 using test::waitFor;
 
-QString s(const char* text) { return QString::fromUtf8(text); }
+QString s(const char* text) {
+  return QString::fromUtf8(text);
+}
 
 // A window with one row of a document.
 struct RowBench {
@@ -43,7 +49,8 @@ struct RowBench {
     QTest::mousePress(window(), Qt::LeftButton, modifiers, from);
     for (const int at : {pixels / 2, pixels}) {
       const QPointF to = from + QPointF(at, 0);
-      QMouseEvent move(QEvent::MouseMove, to, window()->mapToGlobal(to), Qt::NoButton, Qt::LeftButton, modifiers);
+      QMouseEvent move(QEvent::MouseMove, to, window()->mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                       modifiers);
       QCoreApplication::sendEvent(window(), &move);
     }
     QTest::mouseRelease(window(), Qt::LeftButton, modifiers, from + QPoint(pixels, 0));
@@ -132,7 +139,8 @@ TEST(PropertyRow, TheWheelNeedsTheFocus) {
   bench.row->setFocus();
   const auto turn = [&] {
     const QPointF at = bench.fieldCenter();
-    QWheelEvent wheel(at, bench.window()->mapToGlobal(at), QPoint(), QPoint(0, 120), Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QWheelEvent wheel(at, bench.window()->mapToGlobal(at), QPoint(), QPoint(0, 120), Qt::NoButton,
+                      Qt::NoModifier, Qt::NoScrollPhase, false);
     QCoreApplication::sendEvent(bench.window(), &wheel);
   };
   turn();
@@ -148,7 +156,8 @@ TEST(PropertyRow, EscapeDuringAScrubTakesItBack) {
   RowBench bench("material.exponent");
   QTest::mousePress(bench.window(), Qt::LeftButton, Qt::NoModifier, bench.fieldCenter());
   const QPointF to = bench.fieldCenter() + QPoint(50, 0);
-  QMouseEvent move(QEvent::MouseMove, to, bench.window()->mapToGlobal(to), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QMouseEvent move(QEvent::MouseMove, to, bench.window()->mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                   Qt::NoModifier);
   QCoreApplication::sendEvent(bench.window(), &move);
   EXPECT_GT(bench.number().value(), 32);
   QTest::keyClick(&bench.number(), Qt::Key_Escape);
@@ -165,7 +174,8 @@ TEST(PropertyRow, ChoicesTogglesAndColoursEditTheRecipe) {
   EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Phong);
 
   RowBench twoSided("material.twoSided");
-  QTest::mouseClick(twoSided.row->editor(), Qt::LeftButton, Qt::NoModifier, QPoint(7, twoSided.row->editor()->height() / 2));
+  QTest::mouseClick(twoSided.row->editor(), Qt::LeftButton, Qt::NoModifier,
+                    QPoint(7, twoSided.row->editor()->height() / 2));
   EXPECT_TRUE(twoSided.document.recipe().objects[0].material.twoSided);
 
   RowBench albedo("material.albedo");
@@ -188,6 +198,98 @@ TEST(PropertyRow, TheTooltipSaysWhatItIsAndWhatAChangeCosts) {
     EXPECT_TRUE(tip.contains(QLatin1String(part))) << tip.toStdString();
 }
 
+// The menu that a right click opens over a row: its entries, and one of them chosen with the keyboard.
+class RowMenu {
+ public:
+  explicit RowMenu(RowBench& bench, const QPoint& at) : bench_(bench), at_(at) {}
+  /// Opens the menu and triggers the entry whose text begins so; all entries as they were.
+  QStringList choose(const char* beginning) {
+    QStringList entries;
+    QTimer timer;  // fires while the menu waits
+    timer.setSingleShot(true);
+    QObject::connect(&timer, &QTimer::timeout, [&] {
+      auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+      ASSERT_TRUE(menu) << "no menu";
+      QAction* chosen = nullptr;
+      for (QAction* action : menu->actions()) {
+        if (!action->text().isEmpty()) entries << action->text();
+        if (action->text().startsWith(s(beginning))) chosen = action;
+      }
+      if (!chosen) {
+        ADD_FAILURE() << beginning;
+        menu->close();
+        return;
+      }
+      menu->setActiveAction(chosen);
+      QTest::keyClick(menu, Qt::Key_Return);
+    });
+    timer.start(50);
+    QContextMenuEvent event(QContextMenuEvent::Mouse, at_, bench_.row->mapToGlobal(at_));
+    QApplication::sendEvent(bench_.row->childAt(at_), &event);
+    return entries;
+  }
+
+ private:
+  RowBench& bench_;
+  QPoint at_;
+};
+
+TEST(PropertyRow, TheRightButtonCopiesPastesResetsAndTellsTheCost) {
+  RowBench bench("transfer.rays");
+  for (const QPoint& at : {bench.fieldCenter(), QPoint(10, bench.row->height() / 2)}) {
+    bench.document.set(s("transfer.rays"), s("777"));
+    const QStringList entries = RowMenu(bench, at).choose("Copy");
+    EXPECT_EQ(QApplication::clipboard()->text(), s("777"));
+    EXPECT_TRUE(entries.contains(s("What does this cost?"))) << entries.join(u'|').toStdString();
+    RowMenu(bench, at).choose("Reset");
+    EXPECT_EQ(bench.document.recipe().transfer.rays, Recipe{}.transfer.rays);
+    RowMenu(bench, at).choose("Paste");
+    EXPECT_EQ(bench.document.recipe().transfer.rays, 777);
+    QToolTip::hideText();
+    RowMenu(bench, at).choose("What does");
+    EXPECT_TRUE(waitFor([] { return QToolTip::isVisible(); }, 1000));
+    EXPECT_TRUE(QToolTip::text().contains(QString::fromStdString(parameterAt("transfer.rays").cost)));
+    QToolTip::hideText();
+  }
+}
+
+TEST(PropertyRow, PastingNonsenseChangesNothing) {
+  RowBench bench("transfer.rays");
+  QApplication::clipboard()->setText(s("a poem"));
+  RowMenu(bench, bench.fieldCenter()).choose("Paste");
+  EXPECT_EQ(bench.document.recipe().transfer.rays, Recipe{}.transfer.rays);
+  EXPECT_FALSE(bench.document.canUndo());
+  QToolTip::hideText();
+}
+
+TEST(PropertyRow, ADoubleClickOrTheRightButtonResetsChoicesAndColoursToo) {
+  RowBench model("material.model");
+  model.document.set(s("material.model"), s("phong"));
+  QTest::mouseDClick(model.row->findChild<QLabel*>(), Qt::LeftButton);
+  EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Lambert);
+  model.document.set(s("material.model"), s("phong"));
+  const QStringList entries = RowMenu(model, model.fieldCenter()).choose("Reset");
+  EXPECT_EQ(model.document.recipe().objects[0].material.model, MaterialModel::Lambert)
+      << entries.join(u'|').toStdString();
+}
+
+TEST(PropertyRow, ShiftScrubsFinerWithTheMouse) {
+  RowBench plain("material.exponent"), fine("material.exponent");
+  plain.drag(plain.fieldCenter(), 60);
+  fine.drag(fine.fieldCenter(), 60, Qt::ShiftModifier);
+  const auto exponent = [](RowBench& bench) { return bench.document.recipe().objects[0].material.exponent; };
+  EXPECT_GT(exponent(fine), 32);
+  EXPECT_LT(exponent(fine), exponent(plain));
+}
+
+TEST(PropertyRow, UnitsMayBeTyped) {
+  RowBench bench("lights[0].rotation");
+  QTest::mouseClick(bench.window(), Qt::LeftButton, Qt::NoModifier, bench.fieldCenter());
+  QTest::keyClicks(bench.row->findChild<QLineEdit*>(), s("0.25*180 deg"));
+  QTest::keyClick(bench.row->findChild<QLineEdit*>(), Qt::Key_Return);
+  EXPECT_EQ(bench.document.recipe().lights[0].rotation, 45);
+}
+
 TEST(PropertyRow, AnUnknownPathIsRefused) {
   Document document;
   EXPECT_THROW(PropertyRow(document, s("transfer.bends")), ValueError);
@@ -198,29 +300,6 @@ TEST(ColorField, ScreenColoursRoundTrip) {
     EXPECT_LT(length(fromScreen(toScreen(c)) - c), 1e-3f);
 }
 
-TEST(Theme, TextIsLegibleOnEverySurface) {
-  const auto luminanceOf = [](const QColor& c) { return double(luminance(fromScreen(c))); };
-  const auto contrast = [&](const QColor& a, const QColor& b) {
-    const double x = luminanceOf(a), y = luminanceOf(b);
-    return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
-  };
-  const Theme& t = darkTheme();
-  for (const QColor& surface : {t.window, t.panel, t.field})
-    for (const QColor& text : {t.text, t.muted, t.accent, t.done, t.stale, t.failed})
-      EXPECT_GE(contrast(text, surface), 4.5) << text.name().toStdString() << " on " << surface.name().toStdString();
-  EXPECT_GE(contrast(t.onAccent, t.accent), 4.5);
-}
-
-TEST(Theme, EveryIconIsThere) {
-  for (const char* name : {"document-open", "edit-undo", "edit-reset", "process-stop", "run-build", "data-error", "zoom-fit-best"}) {
-    const QImage image = icon(s(name)).pixmap(16, 16).toImage();
-    bool drawn = false;
-    for (int y = 0; y < image.height(); ++y)
-      for (int x = 0; x < image.width(); ++x) drawn = drawn || qAlpha(image.pixel(x, y)) > 128;
-    EXPECT_TRUE(drawn) << name;
-  }
-}
-
 TEST(Compass, TurnsWithThePointer) {
   Compass compass;
   compass.show();
@@ -228,7 +307,8 @@ TEST(Compass, TurnsWithThePointer) {
   QSignalSpy turns(&compass, &Compass::turned);
   const QPoint top(compass.width() / 2, 6), left(6, compass.height() / 2);
   QTest::mousePress(&compass, Qt::LeftButton, Qt::NoModifier, top);
-  QMouseEvent move(QEvent::MouseMove, left, compass.mapToGlobal(QPointF(left)), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+  QMouseEvent move(QEvent::MouseMove, left, compass.mapToGlobal(QPointF(left)), Qt::NoButton, Qt::LeftButton,
+                   Qt::NoModifier);
   QCoreApplication::sendEvent(&compass, &move);
   QTest::mouseRelease(&compass, Qt::LeftButton, Qt::NoModifier, left);
   EXPECT_NEAR(compass.angle(), 90, 3) << "from -Z to -X is +90 degrees";

@@ -12,8 +12,14 @@ class LogDock : public QPlainTextEdit {
  public:
   explicit LogDock(Log& log, QWidget* parent = nullptr);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void showAll();
   void append(const LogEntry& entry);
+
+  Log& log_;
 };
 
 }  // namespace prt::ui

@@ -22,10 +22,13 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
       products_(new QWidget) {
   auto* bake = new Section(tr("Transfer"));
   bake->add(message_);
-  for (const char* path : {"transfer.kind", "transfer.bands", "transfer.rays", "transfer.bounces", "transfer.shadows"})
+  for (const char* path :
+       {"transfer.kind", "transfer.bands", "transfer.rays", "transfer.bounces", "transfer.shadows"})
     bake->add(new PropertyRow(session.document(), QLatin1String(path)));
   auto* automatic = new QCheckBox(tr("Bake by itself after edits"));
   automatic->setChecked(session_.bakes().automatic());
+  automatic->setToolTip(
+      tr("On, every edit that needs a bake starts it at once. Off, products become stale until you bake."));
   connect(automatic, &QCheckBox::toggled, &session_.bakes(), &BakeController::setAutomatic);
   bake->add(automatic);
   button_->setObjectName(QStringLiteral("bakeButton"));
@@ -45,8 +48,10 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
   add(products);
 
   connect(button_, &QPushButton::clicked, this, [this] {
-    if (session_.bakes().baking()) session_.bakes().cancel();
-    else session_.bakes().bake();
+    if (session_.bakes().baking())
+      session_.bakes().cancel();
+    else
+      session_.bakes().bake();
   });
   connect(&session_.bakes(), &BakeController::changed, this, &TransferDock::refresh);
   connect(&session_, &Session::statusChanged, this, &TransferDock::refresh);
@@ -62,8 +67,9 @@ void TransferDock::refresh() {
   button_->setText(bakes.baking() ? tr("Cancel") : tr("Bake"));
   button_->setIcon(bakes.baking() ? icon(QStringLiteral("process-stop")) : icon(QStringLiteral("run-build")));
   button_->setEnabled(bakes.baking() || !bakes.fresh());
-  button_->setToolTip(bakes.baking() ? tr("Stop here; what is done is kept and the next bake goes on from it.")
-                                     : tr("Bake everything that is out of date."));
+  button_->setToolTip(bakes.baking()
+                          ? tr("Stop here; what is done is kept and the next bake goes on from it.")
+                          : tr("Bake everything that is out of date."));
   summary_->setText(session_.transferSummary());
   refreshProducts();
 }

@@ -40,9 +40,12 @@ class Parser {
   double sum() {
     double value = product();
     while (!failed_) {
-      if (take(u'+')) value += product();
-      else if (take(u'-') || take(u'\u2212')) value -= product();
-      else break;
+      if (take(u'+'))
+        value += product();
+      else if (take(u'-') || take(u'\u2212'))
+        value -= product();
+      else
+        break;
     }
     return value;
   }
@@ -50,9 +53,12 @@ class Parser {
   double product() {
     double value = power();
     while (!failed_) {
-      if (take(u'*') || take(u'\u00d7')) value *= power();
-      else if (take(u'/')) value /= power();
-      else break;
+      if (take(u'*') || take(u'\u00d7'))
+        value *= power();
+      else if (take(u'/'))
+        value /= power();
+      else
+        break;
     }
     return value;
   }
@@ -61,8 +67,10 @@ class Parser {
   double power() {
     if (++depth_ > kMaxDepth) return fail();
     double value;
-    if (take(u'-') || take(u'\u2212')) value = -power();
-    else if (take(u'+')) value = power();
+    if (take(u'-') || take(u'\u2212'))
+      value = -power();
+    else if (take(u'+'))
+      value = power();
     else {
       value = atom();
       if (!failed_ && take(u'^')) value = std::pow(value, power());
@@ -113,7 +121,8 @@ class Parser {
 std::optional<double> evaluateExpression(const QString& text, const QString& unit) {
   QString bare = text.trimmed();
   QStringList endings{unit};
-  if (unit == u"degrees") endings << QStringLiteral("deg") << QStringLiteral("\u00b0");
+  if (unit == u"degrees" || unit == u"\u00b0")
+    endings << QStringLiteral("degrees") << QStringLiteral("deg") << QStringLiteral("\u00b0");
   for (const QString& ending : endings)
     if (!ending.isEmpty() && bare.endsWith(ending)) {
       bare.chop(ending.size());
@@ -133,7 +142,7 @@ QString formatNumber(double value, int decimals) {
 
 QString formatCount(qint64 value) {
   QString text = QString::number(value);
-  for (qsizetype i = text.size() - 3; i > (value < 0 ? 1 : 0); i -= 3) text.insert(i, QChar(0x2009));
+  for (qsizetype i = text.size() - 3; i > (value < 0 ? 1 : 0); i -= 3) text.insert(i, QChar(0x202f));
   return text;
 }
 

@@ -22,8 +22,10 @@ class Log : public QObject {
  public:
   using QObject::QObject;
   const std::deque<LogEntry>& entries() const { return entries_; }
+  /// Entries from now on without the time, for pictures that are the same each time.
+  void setTimeless(bool timeless) { timeless_ = timeless; }
   void add(Severity severity, const QString& text) {
-    entries_.push_back({QTime::currentTime(), severity, text});
+    entries_.push_back({timeless_ ? QTime() : QTime::currentTime(), severity, text});
     if (entries_.size() > kKept) entries_.pop_front();
     Q_EMIT added(entries_.back());
   }
@@ -34,6 +36,7 @@ class Log : public QObject {
  private:
   static constexpr std::size_t kKept = 1000;
   std::deque<LogEntry> entries_;
+  bool timeless_ = false;
 };
 
 }  // namespace prt::ui

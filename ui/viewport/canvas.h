@@ -26,6 +26,10 @@ class Canvas {
   virtual void invalidate() = 0;
   /// While the user drags, a frame in time is worth more than smooth edges.
   virtual void setInteracting(bool interacting) = 0;
+  /// Edges as smooth as they get, whatever it costs: for pictures that are the same each time.
+  virtual void setThorough(bool thorough) = 0;
+  /// Whether what is on the screen stays as it is until something changes.
+  virtual bool settled() const = 0;
   /// Milliseconds that the last frame took: relighting, drawing, tone mapping.
   virtual double frameMilliseconds() const = 0;
   /// "OpenGL 4.5, llvmpipe" or "CPU".

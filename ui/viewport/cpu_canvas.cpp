@@ -62,7 +62,8 @@ QImage CpuCanvas::draw() {
                           .light = lit.light(),
                           .background = behind ? &lit.rig() : nullptr};
   Job patient;
-  const Image radiance = prt::render(input, context_.view.camera(), w, h, interacting_ ? 1 : kSmoothGrid, patient);
+  const Image radiance =
+      prt::render(input, context_.view.camera(), w, h, interacting_ ? 1 : kSmoothGrid, patient);
   return toQImage(toDisplay(radiance, context_.view.tone()));
 }
 
@@ -79,6 +80,8 @@ void CpuCanvas::paintEvent(QPaintEvent*) {
   context_.paintOverlay(painter);
 }
 
-QImage CpuCanvas::grabPicture() { return context_.relighter.scene() ? draw() : QImage(); }
+QImage CpuCanvas::grabPicture() {
+  return context_.relighter.scene() ? draw() : QImage();
+}
 
 }  // namespace prt::ui

@@ -16,6 +16,8 @@ class CpuCanvas : public QWidget, public Canvas {
   QWidget* widget() override { return this; }
   void invalidate() override { update(); }
   void setInteracting(bool interacting) override;
+  void setThorough(bool) override {}
+  bool settled() const override { return !interacting_; }
   double frameMilliseconds() const override { return milliseconds_; }
   QString describe() const override { return tr("CPU"); }
   QImage grabPicture() override;

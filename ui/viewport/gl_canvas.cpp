@@ -7,6 +7,7 @@
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
+#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QSurfaceFormat>
 #include <QTimer>
@@ -16,9 +17,9 @@
 namespace prt::ui {
 
 namespace {
-constexpr int kSamples = 4;    // per pixel, where that is cheap
-constexpr int kPasses = 16;    // where it is not: one after the other, while nothing changes
-constexpr double kCheap = 12;  // milliseconds
+constexpr int kSamples = 4;         // per pixel, where that is cheap
+constexpr int kPasses = 16;         // where it is not: one after the other, while nothing changes
+constexpr double kCheap = 12;       // milliseconds
 const Rgb kPlainBackground(0.16f);  // as the screen shows it
 
 QSurfaceFormat wantedFormat() {
@@ -26,20 +27,25 @@ QSurfaceFormat wantedFormat() {
   format.setRenderableType(QSurfaceFormat::OpenGL);
   format.setVersion(4, 5);
   format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(0);  // the renderer has its own
+  format.setDepthBufferSize(0);    // the renderer has its own
   format.setStencilBufferSize(8);  // QPainter's clipping
   return format;
 }
 }  // namespace
 
-GlCanvas::GlCanvas(CanvasContext context, QWidget* parent) : QOpenGLWidget(parent), context_(std::move(context)) {
+GlCanvas::GlCanvas(CanvasContext context, QWidget* parent)
+    : QOpenGLWidget(parent), context_(std::move(context)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setFocusPolicy(Qt::NoFocus);
 }
 
-GlCanvas::~GlCanvas() { release(); }
+GlCanvas::~GlCanvas() {
+  release();
+}
 
-void GlCanvas::requestFormat() { QSurfaceFormat::setDefaultFormat(wantedFormat()); }
+void GlCanvas::requestFormat() {
+  QSurfaceFormat::setDefaultFormat(wantedFormat());
+}
 
 bool GlCanvas::available() {
   QOpenGLContext context;
@@ -55,6 +61,7 @@ bool GlCanvas::available() {
 
 void GlCanvas::invalidate() {
   pass_ = 0;
+  finished_ = false;
   update();
 }
 
@@ -62,6 +69,16 @@ void GlCanvas::setInteracting(bool interacting) {
   if (interacting == interacting_) return;
   interacting_ = interacting;
   update();
+}
+
+void GlCanvas::setThorough(bool thorough) {
+  thorough_ = thorough;
+  inPasses_ = inPasses_ || thorough;
+  invalidate();
+}
+
+bool GlCanvas::settled() const {
+  return broken_ || (finished_ && !interacting_);
 }
 
 void GlCanvas::initializeGL() {
@@ -84,6 +101,11 @@ void GlCanvas::release() {
   doneCurrent();
 }
 
+// What was summed is of another size.
+void GlCanvas::resizeGL(int, int) {
+  invalidate();
+}
+
 void GlCanvas::paintGL() {
   QOpenGLFunctions* f = QOpenGLContext::currentContext()->functions();
   if (broken_ || !renderer_) {
@@ -94,25 +116,33 @@ void GlCanvas::paintGL() {
   try {
     QElapsedTimer timer;
     timer.start();
-    uploadChanges();
-    drawScene();
+    if (finished_) {
+      renderer_->showAgain(defaultFramebufferObject());  // uncovered, or grabbed
+    } else {
+      uploadChanges();
+      drawScene();
+    }
     f->glFinish();  // else the time would be that of handing the work over
     const double milliseconds = timer.nsecsElapsed() * 1e-6;
-    if (pass_ == 0) milliseconds_ = milliseconds;
-    goOn(milliseconds);
+    if (pass_ == 0 && !finished_) milliseconds_ = milliseconds;
+    if (!finished_) goOn(milliseconds);
   } catch (const std::exception& error) {
     broken_ = true;
     Q_EMIT failed(QString::fromUtf8(error.what()));
     return;
   }
-  QPainter painter(this);
+  // Onto what is bound now: a painter on the widget would go elsewhere while the window is being grabbed.
+  QOpenGLPaintDevice device(size() * devicePixelRatioF());
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
   context_.paintOverlay(painter);
 }
 
 // After a frame: another pass for smoother edges, while nothing changes.
 void GlCanvas::goOn(double milliseconds) {
   if (!inPasses_ && milliseconds > kCheap) inPasses_ = true;
-  if (!inPasses_ || interacting_ || pass_ >= kPasses - 1) return;
+  finished_ = !inPasses_ || pass_ >= kPasses - 1;
+  if (finished_ || interacting_) return;
   ++pass_;
   QTimer::singleShot(0, this, qOverload<>(&QWidget::update));
 }

@@ -27,6 +27,8 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   QWidget* widget() override { return this; }
   void invalidate() override;
   void setInteracting(bool interacting) override;
+  void setThorough(bool thorough) override;
+  bool settled() const override;
   double frameMilliseconds() const override { return milliseconds_; }
   QString describe() const override { return description_; }
   QImage grabPicture() override;
@@ -37,6 +39,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
 
  protected:
   void initializeGL() override;
+  void resizeGL(int width, int height) override;
   void paintGL() override;
 
  private:
@@ -50,8 +53,11 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   bool interacting_ = false;
   bool broken_ = false;
   double milliseconds_ = 0;
-  bool inPasses_ = false;  // smooth edges come from several passes over time, not from several samples at once
-  int pass_ = 0;           // of the next frame
+  bool inPasses_ =
+      false;      // smooth edges come from several passes over time, not from several samples at once
+  int pass_ = 0;  // of the next frame
+  bool thorough_ = false;  // always in passes
+  bool finished_ = false;  // the last pass since the last change is on the screen
   QString description_;
   quint64 scene_ = 0, light_ = 0, environment_ = 0, materials_ = 0;
 };

@@ -113,7 +113,7 @@ void LightHandles::paintMark(QPainter& painter, const LightMark& mark, const Vie
   const Vec3 place = s.center + s.radius * mark.direction;
   const auto at = view.project(place);
   if (!at) return;
-  const QColor line = mark.selected || hot ? theme().accent : QColor(Qt::white);
+  const QColor line = mark.selected || hot ? pictureTheme().accent : QColor(Qt::white);
   painter.setOpacity((hidden(place, view) ? kFaint : 1) * (mark.on ? 1 : kMuted));
   // A stalk towards the model tells where on the sphere the handle is.
   if (const auto inside = view.project(s.center + 0.86f * s.radius * mark.direction)) {
@@ -157,7 +157,7 @@ void LightHandles::paintRim(QPainter& painter, const LightMark& mark, const View
     part.lineTo(*at[next]);
   }
   const bool rimHot = (held_.light < 0 ? hovered_ : held_) == Grip{Part::Rim, mark.light};
-  const QColor line = mark.selected || rimHot ? theme().accent : toScreen(mark.color);
+  const QColor line = mark.selected || rimHot ? pictureTheme().accent : toScreen(mark.color);
   if (mark.on && mark.halfAngle <= kPiF / 2) {
     QColor fill = toScreen(mark.color);
     fill.setAlphaF(0.12f);
@@ -255,6 +255,11 @@ void LightHandles::cancel() {
 QCursor LightHandles::cursor() const {
   const Part part = held_.part != Part::None ? held_.part : hovered_.part;
   return part == Part::Rim ? Qt::SizeFDiagCursor : Qt::SizeAllCursor;
+}
+
+QList<Binding> LightHandles::bindings() const {
+  return {{tr("Drag"), tr("a light around the model: its middle moves it, its rim resizes it")},
+          {tr("Delete"), tr("removes the selected light")}};
 }
 
 QString LightHandles::hint() const {

@@ -44,6 +44,7 @@ class LightHandles : public Manipulator {
   void cancel() override;
   QCursor cursor() const override;
   QString hint() const override;
+  QList<Binding> bindings() const override;
 
  private:
   enum class Part { None, Middle, Rim };

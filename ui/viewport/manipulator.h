@@ -4,6 +4,7 @@
 // takes navigates.
 
 #include "ui/viewport/view_geometry.h"
+#include "ui/widgets/binding.h"
 
 #include <QCursor>
 #include <QObject>
@@ -44,6 +45,8 @@ class Manipulator : public QObject {
   virtual QCursor cursor() const = 0;
   /// What the mouse does there, for the status bar; empty when nothing is hovered.
   virtual QString hint() const = 0;
+  /// All that mouse and keys do with it, for the overlay of keys.
+  virtual QList<Binding> bindings() const { return {}; }
 
  Q_SIGNALS:
   /// Would be painted differently.

@@ -10,7 +10,7 @@ namespace prt::ui {
 
 class Session;
 
-/// Draws over the picture, in logical pixels of a viewport of this size.
-void paintOverlay(QPainter& painter, const QSize& size, Session& session, const Canvas& canvas);
+/// Draws over the picture, in logical pixels of a viewport of this size. Without a canvas no frame time.
+void paintOverlay(QPainter& painter, const QSize& size, Session& session, const Canvas* canvas);
 
 }  // namespace prt::ui

@@ -42,16 +42,18 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
 
 void Viewport::chooseCanvas() {
   if (!GlCanvas::available()) return useCpu(tr("this machine has no OpenGL 4.5"));
-  auto* canvas = new GlCanvas({session_.relighter(), session_.view(),
-                               [this](QPainter& p) { paintOver(p); }}, this);
+  auto* canvas =
+      new GlCanvas({session_.relighter(), session_.view(), [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
-  connect(canvas, &GlCanvas::failed, this, [this](const QString& message) { useCpu(message); }, Qt::QueuedConnection);
+  connect(
+      canvas, &GlCanvas::failed, this, [this](const QString& message) { useCpu(message); },
+      Qt::QueuedConnection);
 }
 
 void Viewport::useCpu(const QString& why) {
   if (canvas_) canvas_->widget()->deleteLater();
-  auto* canvas = new CpuCanvas({session_.relighter(), session_.view(),
-                                [this](QPainter& p) { paintOver(p); }}, this);
+  auto* canvas =
+      new CpuCanvas({session_.relighter(), session_.view(), [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
   canvas->setGeometry(rect());
   canvas->show();
@@ -60,18 +62,39 @@ void Viewport::useCpu(const QString& why) {
 
 QString Viewport::hint() const {
   switch (drag_) {
-    case Drag::Orbit: return tr("Orbiting \u2014 Shift pans");
-    case Drag::Pan: return tr("Panning");
-    case Drag::TurnLight: return tr("Turning the environment: %1\u00b0").arg(session_.environmentAngle(), 0, 'f', 1);
-    case Drag::None: break;
+    case Drag::Orbit:
+      return tr("Orbiting \u2014 Shift pans");
+    case Drag::Pan:
+      return tr("Panning");
+    case Drag::TurnLight:
+      return tr("Turning the environment: %1\u00b0").arg(session_.environmentAngle(), 0, 'f', 1);
+    case Drag::None:
+      break;
   }
   for (const Manipulator* each : {held_, hovered_})
     if (each && !each->hint().isEmpty()) return each->hint();
-  return tr("Shift+drag turns the light   \u00b7   Alt+drag or middle orbits   \u00b7   +Shift pans   \u00b7   "
-            "wheel zooms   \u00b7   F frames   \u00b7   R resets");
+  return tr(
+      "Shift+drag turns the light   \u00b7   Alt+drag or middle orbits   \u00b7   +Shift pans   \u00b7   "
+      "wheel zooms   \u00b7   F frames   \u00b7   R resets");
 }
 
-void Viewport::resizeEvent(QResizeEvent*) { canvas_->widget()->setGeometry(rect()); }
+QList<Binding> Viewport::bindings() const {
+  QList<Binding> all{{tr("Shift + drag"), tr("turn the environment, with either button")},
+                     {tr("Alt + drag or Middle drag"), tr("orbit; with Shift as well, pan")},
+                     {tr("Wheel"), tr("zoom towards the pointer")}};
+  for (const Manipulator* each : manipulators_) all << each->bindings();
+  all << Binding{tr("Drop"), tr("a mesh or project opens, an HDR becomes the light")};
+  return all;
+}
+
+void Viewport::setPictureMode(bool on) {
+  pictureMode_ = on;
+  canvas_->setThorough(on);
+}
+
+void Viewport::resizeEvent(QResizeEvent*) {
+  canvas_->widget()->setGeometry(rect());
+}
 
 Viewport::Drag Viewport::dragOf(Qt::MouseButton button, Qt::KeyboardModifiers modifiers) const {
   const bool shift = modifiers & Qt::ShiftModifier, alt = modifiers & Qt::AltModifier;
@@ -119,7 +142,8 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
 void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
   const ViewGeometry view(session_.view().camera(), size());
   for (Manipulator* each : manipulators_)
-    if (event->button() == Qt::LeftButton && each->enabled() && each->doubleClick(event->position(), view)) return;
+    if (event->button() == Qt::LeftButton && each->enabled() && each->doubleClick(event->position(), view))
+      return;
   mousePressEvent(event);
 }
 
@@ -128,7 +152,9 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
   QWidget::keyPressEvent(event);
 }
 
-void Viewport::leaveEvent(QEvent*) { hoverManipulators({}); }
+void Viewport::leaveEvent(QEvent*) {
+  hoverManipulators({});
+}
 
 void Viewport::focusOutEvent(QFocusEvent*) {
   letGo(false);
@@ -148,7 +174,7 @@ void Viewport::paintOver(QPainter& painter) {
   if (session_.relighter().scene())
     for (Manipulator* each : manipulators_)
       if (each->enabled()) each->paint(painter, view);
-  paintOverlay(painter, size(), session_, *canvas_);
+  paintOverlay(painter, size(), session_, pictureMode_ ? nullptr : canvas_);
 }
 
 bool Viewport::pressManipulator(QMouseEvent* event) {
@@ -172,8 +198,10 @@ void Viewport::hoverManipulators(std::optional<QPointF> at) {
   const bool same = taken == hovered_ && !taken;
   hovered_ = taken;
   if (same) return;
-  if (taken) setCursor(taken->cursor());
-  else unsetCursor();
+  if (taken)
+    setCursor(taken->cursor());
+  else
+    unsetCursor();
   Q_EMIT hintChanged(hint());
 }
 
@@ -181,8 +209,10 @@ void Viewport::hoverManipulators(std::optional<QPointF> at) {
 void Viewport::letGo(bool keep, const QPointF& at) {
   if (!held_) return;
   Manipulator* held = std::exchange(held_, nullptr);
-  if (keep) held->release(at, {session_.view().camera(), size()});
-  else held->cancel();
+  if (keep)
+    held->release(at, {session_.view().camera(), size()});
+  else
+    held->cancel();
   settle_.start();
   hoverManipulators(keep ? std::optional(at) : std::nullopt);
   Q_EMIT hintChanged(hint());
@@ -204,7 +234,8 @@ void Viewport::turnLight(float pixels) {
 
 void Viewport::wheelEvent(QWheelEvent* event) {
   const QPointF at = event->position();
-  const float x = float(at.x() - 0.5 * width()) / float(height()), y = float(0.5 * height() - at.y()) / float(height());
+  const float x = float(at.x() - 0.5 * width()) / float(height()),
+              y = float(0.5 * height() - at.y()) / float(height());
   const QPoint turned = event->angleDelta();
   session_.view().zoom(float(turned.y() != 0 ? turned.y() : turned.x()) / 120.0f, x, y);
   interact();
@@ -212,7 +243,9 @@ void Viewport::wheelEvent(QWheelEvent* event) {
 }
 
 // Right drags turn the light: no menu after them.
-void Viewport::contextMenuEvent(QContextMenuEvent* event) { event->accept(); }
+void Viewport::contextMenuEvent(QContextMenuEvent* event) {
+  event->accept();
+}
 
 void Viewport::dragEnterEvent(QDragEnterEvent* event) {
   for (const QUrl& url : event->mimeData()->urls())
@@ -230,6 +263,8 @@ void Viewport::interact() {
   settle_.start();
 }
 
-void Viewport::refresh() { canvas_->invalidate(); }
+void Viewport::refresh() {
+  canvas_->invalidate();
+}
 
 }  // namespace prt::ui

@@ -3,10 +3,11 @@
 //   Alt + left or middle drag   orbit        wheel         zoom towards the pointer
 //   ... with Shift              pan          F, R          frame all, reset the view
 //   Shift + left or right drag  turns the environment
-// Manipulators take the left button first where the pointer is over something of theirs. Files dropped on it are
-// opened.
+// Manipulators take the left button first where the pointer is over something of theirs. Files dropped on it
+// are opened.
 
 #include "ui/viewport/canvas.h"
+#include "ui/widgets/binding.h"
 
 #include <QPointF>
 #include <QTimer>
@@ -30,6 +31,11 @@ class Viewport : public QWidget {
   void addManipulator(Manipulator* manipulator);
   /// What the mouse does here, for the status bar.
   QString hint() const;
+  /// All that mouse and keys do here.
+  QList<Binding> bindings() const;
+  /// For pictures of the window: no frame time, all passes for smooth edges.
+  void setPictureMode(bool on);
+  bool pictureMode() const { return pictureMode_; }
   QSize sizeHint() const override { return {960, 720}; }
 
  Q_SIGNALS:
@@ -72,6 +78,7 @@ class Viewport : public QWidget {
   Drag drag_ = Drag::None;
   Qt::MouseButton dragButton_ = Qt::NoButton;
   QPointF last_;
+  bool pictureMode_ = false;
   QTimer settle_;  // when the hand rests, the edges get smooth again
 };
 

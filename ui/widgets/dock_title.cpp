@@ -47,7 +47,9 @@ void DockTitle::setFolded(bool folded) {
   updateGeometry();
 }
 
-QSize DockTitle::sizeHint() const { return {80, folded_ ? 0 : kHeight}; }
+QSize DockTitle::sizeHint() const {
+  return {80, folded_ ? 0 : kHeight};
+}
 
 void DockTitle::paintEvent(QPaintEvent*) {
   QPainter painter(this);
@@ -58,7 +60,8 @@ void DockTitle::paintEvent(QPaintEvent*) {
   bold.setWeight(QFont::DemiBold);
   painter.setFont(bold);
   painter.setPen(theme().text);
-  painter.drawText(rect().adjusted(2 * kGrid, 0, -48, -1), Qt::AlignVCenter | Qt::AlignLeft, dock_->windowTitle());
+  painter.drawText(rect().adjusted(2 * kGrid, 0, -48, -1), Qt::AlignVCenter | Qt::AlignLeft,
+                   dock_->windowTitle());
 }
 
 void DockTitle::enterEvent(QEnterEvent*) {

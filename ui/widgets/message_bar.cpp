@@ -29,12 +29,15 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), tex
 void MessageBar::show(Severity severity, const QString& text) {
   const bool error = severity == Severity::Error;
   icon_->setPixmap(icon(error ? QStringLiteral("data-error") : QStringLiteral("data-warning"),
-                        error ? theme().failed : theme().stale).pixmap(16, 16));
+                        error ? theme().failed : theme().stale)
+                       .pixmap(QSize(16, 16), devicePixelRatioF()));
   text_->setText(text);
   QWidget::show();
   adjustSize();
 }
 
-QString MessageBar::text() const { return isVisible() ? text_->text() : QString(); }
+QString MessageBar::text() const {
+  return isVisible() ? text_->text() : QString();
+}
 
 }  // namespace prt::ui

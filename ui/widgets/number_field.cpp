@@ -32,8 +32,24 @@ double factorOf(Qt::KeyboardModifiers modifiers) {
 NumberField::NumberField(const NumberFormat& format, QWidget* parent) : QWidget(parent), format_(format) {
   setFocusPolicy(Qt::StrongFocus);
   setCursor(Qt::SizeHorCursor);
+  setStatusTip(hint());
   setFixedHeight(kRowHeight - 2);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+}
+
+QString NumberField::hint() {
+  return tr(
+      "Drag changes the number   \u00b7   Shift fine, Ctrl coarse   \u00b7   click to type   \u00b7   double "
+      "click resets");
+}
+
+QList<Binding> NumberField::bindings() {
+  return {{tr("Drag"), tr("on number or label: change it; Shift fine, Ctrl coarse")},
+          {tr("Click or Enter"), tr("type: 3*24, 1.5k, 90 deg")},
+          {tr("Wheel or Up or Down"), tr("step, while it has the keyboard")},
+          {tr("Double click"), tr("back to the default")},
+          {tr("Esc"), tr("take a drag back")},
+          {tr("Right click"), tr("copy, paste, reset, what it costs")}};
 }
 
 void NumberField::setValue(double value) {
@@ -42,10 +58,18 @@ void NumberField::setValue(double value) {
   update();
 }
 
-QString NumberField::text() const { return formatNumber(value_, format_.decimals); }
-bool NumberField::editing() const { return editor_ != nullptr; }
-QSize NumberField::sizeHint() const { return {96, kRowHeight - 2}; }
-QSize NumberField::minimumSizeHint() const { return {48, kRowHeight - 2}; }
+QString NumberField::text() const {
+  return formatNumber(value_, format_.decimals);
+}
+bool NumberField::editing() const {
+  return editor_ != nullptr;
+}
+QSize NumberField::sizeHint() const {
+  return {96, kRowHeight - 2};
+}
+QSize NumberField::minimumSizeHint() const {
+  return {48, kRowHeight - 2};
+}
 
 double NumberField::bounded(double value) const {
   if (format_.high > format_.low) value = std::clamp(value, format_.low, format_.high);
@@ -80,8 +104,11 @@ void NumberField::stepBy(double steps, Qt::KeyboardModifiers modifiers) {
     return change(scrubbed(value_, steps * 4, modifiers));
   }
   double step = format_.step;
-  if (step <= 0) step = format_.decimals == 0 ? 1 : (format_.high > format_.low ? (format_.high - format_.low) / 100 : 0.1);
-  change(value_ + steps * step * (format_.decimals == 0 ? std::max(1.0, factorOf(modifiers)) : factorOf(modifiers)));
+  if (step <= 0)
+    step =
+        format_.decimals == 0 ? 1 : (format_.high > format_.low ? (format_.high - format_.low) / 100 : 0.1);
+  change(value_ +
+         steps * step * (format_.decimals == 0 ? std::max(1.0, factorOf(modifiers)) : factorOf(modifiers)));
 }
 
 void NumberField::paintEvent(QPaintEvent*) {
@@ -99,7 +126,7 @@ void NumberField::paintEvent(QPaintEvent*) {
     bar.setTop(bar.bottom() - 2);
     bar.setWidth(bar.width() * std::clamp(fraction(), 0.0, 1.0));
     painter.setPen(Qt::NoPen);
-    painter.setBrush(hot ? t.accent : t.muted.darker(160));
+    painter.setBrush(hot ? t.accent : mixed(t.field, t.muted, 0.45));
     painter.drawRect(bar);
   }
 
@@ -153,12 +180,15 @@ void NumberField::wheelEvent(QWheelEvent* event) {
 void NumberField::keyPressEvent(QKeyEvent* event) {
   switch (event->key()) {
     case Qt::Key_Up:
-    case Qt::Key_Right: return stepBy(1, event->modifiers());
+    case Qt::Key_Right:
+      return stepBy(1, event->modifiers());
     case Qt::Key_Down:
-    case Qt::Key_Left: return stepBy(-1, event->modifiers());
+    case Qt::Key_Left:
+      return stepBy(-1, event->modifiers());
     case Qt::Key_Return:
     case Qt::Key_Enter:
-    case Qt::Key_F2: return beginEditing();
+    case Qt::Key_F2:
+      return beginEditing();
     case Qt::Key_Escape:
       if (scrubbing_) {
         change(valueAtPress_);
@@ -167,10 +197,12 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
         return;
       }
       break;
-    default: break;
+    default:
+      break;
   }
   // Typing a number begins to edit with it.
-  if (!event->text().isEmpty() && (event->text()[0].isDigit() || QStringLiteral("-.(").contains(event->text()[0]))) {
+  if (!event->text().isEmpty() &&
+      (event->text()[0].isDigit() || QStringLiteral("-.(").contains(event->text()[0]))) {
     beginEditing();
     editor_->setText(event->text());
     return;
@@ -197,12 +229,15 @@ void NumberField::beginEditing() {
 bool NumberField::eventFilter(QObject* watched, QEvent* event) {
   if (watched != editor_) return false;
   if (event->type() == QEvent::FocusOut) {
-    if (evaluateExpression(editor_->text(), format_.unit)) commit();
-    else closeEditor();
+    if (evaluateExpression(editor_->text(), format_.unit))
+      commit();
+    else
+      closeEditor();
     return true;
   }
   // The first click opened the editor; a second one right after it is the double click that resets.
-  const bool press = event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick;
+  const bool press =
+      event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick;
   if (press && editingSince_.elapsed() < QApplication::doubleClickInterval()) {
     closeEditor();
     Q_EMIT resetRequested();
@@ -211,9 +246,14 @@ bool NumberField::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress) return false;
   switch (static_cast<QKeyEvent*>(event)->key()) {
     case Qt::Key_Return:
-    case Qt::Key_Enter: commit(); return true;
-    case Qt::Key_Escape: closeEditor(); return true;
-    default: return false;
+    case Qt::Key_Enter:
+      commit();
+      return true;
+    case Qt::Key_Escape:
+      closeEditor();
+      return true;
+    default:
+      return false;
   }
 }
 

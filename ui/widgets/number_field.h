@@ -3,6 +3,8 @@
 // keys when it has the focus, or typed, with units and arithmetic. A quiet bar behind it shows where the
 // value lies in its range.
 
+#include "ui/widgets/binding.h"
+
 #include <QElapsedTimer>
 #include <QString>
 #include <QWidget>
@@ -29,6 +31,10 @@ class NumberField : public QWidget {
   void setValue(double value);
   const NumberFormat& format() const { return format_; }
   QString text() const;
+  /// All that mouse and keys do on a number.
+  static QList<Binding> bindings();
+  /// The same in one line, for the status bar.
+  static QString hint();
   bool editing() const;
 
   QSize sizeHint() const override;

@@ -92,12 +92,12 @@ void Panorama::paintSky(QPainter& painter) const {
   for (double x = left; x < width(); x += width())
     painter.drawImage(QRectF(x, 0, width(), height()), picture_);
   painter.setOpacity(1);
-  painter.setPen(QPen(theme().accent, 1));
+  painter.setPen(QPen(pictureTheme().accent, 1));
   painter.drawLine(QPointF(0.5 * width(), height() - 6), QPointF(0.5 * width(), height()));
 }
 
 void Panorama::paintMark(QPainter& painter, const LightMark& mark) const {
-  const Theme& t = theme();
+  const Theme& t = pictureTheme();
   const bool hot =
       (hovered_.light == mark.light && hovered_.part != Part::None) || dragged_.light == mark.light;
   const QPointF at = toStrip(mark.direction, size());
@@ -123,7 +123,7 @@ void Panorama::paintMark(QPainter& painter, const LightMark& mark) const {
 }
 
 void Panorama::paintSun(QPainter& painter, const QPointF& at, const LightMark& mark, bool hot) const {
-  const QColor line = mark.selected || hot ? theme().accent : theme().text;
+  const QColor line = mark.selected || hot ? pictureTheme().accent : pictureTheme().text;
   painter.setOpacity(mark.on ? 1 : kMuted);
   const auto draw = [&](const QPen& pen) {
     painter.setPen(pen);

@@ -53,7 +53,9 @@ NumberFormat formatOf(const Parameter& parameter, const QString& title) {
   return format;
 }
 
-QString jsonText(const nlohmann::json& value) { return QString::fromStdString(value.dump()); }
+QString jsonText(const nlohmann::json& value) {
+  return QString::fromStdString(value.dump());
+}
 
 }  // namespace
 
@@ -61,7 +63,8 @@ QString parameterTip(const Parameter& p) {
   const auto text = [](const std::string& s) { return QString::fromStdString(s).toHtmlEscaped(); };
   QString tip = QStringLiteral("<p style='white-space:pre-wrap'>%1</p><p>").arg(text(p.doc));
   if (p.high > p.low && p.high < 1e8)
-    tip += QObject::tr("Range %1 to %2 %3<br>").arg(formatNumber(p.low, 3), formatNumber(p.high, 3), text(p.unit));
+    tip += QObject::tr("Range %1 to %2<br>").arg(formatNumber(p.low, 3), formatNumber(p.high, 3));
+  if (!p.unit.empty()) tip += QObject::tr("Unit: %1<br>").arg(text(p.unit));
   tip += QObject::tr("Default %1<br>").arg(text(p.defaultText));
   tip += QObject::tr("Cost of a change: %1<br>").arg(text(p.cost));
   return tip + QStringLiteral("<tt>%1</tt></p>").arg(text(p.path));
@@ -81,7 +84,12 @@ PropertyRow::PropertyRow(Document& document, const QString& path, const QString&
   label_->setFixedWidth(kLabelWidth);
   setRole(label_, "muted");
   label_->installEventFilter(this);
-  if (qobject_cast<NumberField*>(editor_)) label_->setCursor(Qt::SizeHorCursor);
+  editor_->installEventFilter(this);
+  label_->setBuddy(editor_);
+  if (qobject_cast<NumberField*>(editor_)) {
+    label_->setCursor(Qt::SizeHorCursor);
+    label_->setStatusTip(NumberField::hint());
+  }
   reset_->setIcon(icon(QStringLiteral("edit-reset")));
   reset_->setIconSize({12, 12});
   reset_->setFixedSize(kResetWidth, kResetWidth);
@@ -113,7 +121,8 @@ QString PropertyRow::valueText() const {
 
 bool PropertyRow::isDefault() const {
   const QString value = valueText();
-  return value.isEmpty() || nlohmann::json::parse(value.toStdString()) == nlohmann::json::parse(parameter_.defaultText);
+  return value.isEmpty() ||
+         nlohmann::json::parse(value.toStdString()) == nlohmann::json::parse(parameter_.defaultText);
 }
 
 void PropertyRow::apply(const QString& value) {
@@ -121,11 +130,14 @@ void PropertyRow::apply(const QString& value) {
     document_.set(path_, value);
   } catch (const Error& error) {
     refresh();
-    QToolTip::showText(editor_->mapToGlobal(QPoint(0, editor_->height())), QString::fromUtf8(error.what()), editor_);
+    QToolTip::showText(editor_->mapToGlobal(QPoint(0, editor_->height())), QString::fromUtf8(error.what()),
+                       editor_);
   }
 }
 
-void PropertyRow::reset() { apply(QString::fromStdString(parameter_.defaultText)); }
+void PropertyRow::reset() {
+  apply(QString::fromStdString(parameter_.defaultText));
+}
 
 void PropertyRow::refresh() {
   const bool exists = !valueText().isEmpty();
@@ -138,20 +150,27 @@ void PropertyRow::refresh() {
 QWidget* PropertyRow::makeEditor() {
   switch (parameter_.type) {
     case ParameterType::Integer:
-    case ParameterType::Number: return makeNumber();
-    case ParameterType::Color: return makeColor();
-    case ParameterType::Choice: return makeChoice();
-    case ParameterType::Boolean: return makeToggle();
-    default: return makeText();
+    case ParameterType::Number:
+      return makeNumber();
+    case ParameterType::Color:
+      return makeColor();
+    case ParameterType::Choice:
+      return makeChoice();
+    case ParameterType::Boolean:
+      return makeToggle();
+    default:
+      return makeText();
   }
 }
 
 QWidget* PropertyRow::makeNumber() {
   auto* field = new NumberField(formatOf(parameter_, title_));
-  connect(field, &NumberField::edited, this, [this](double value) { apply(jsonText(nlohmann::json(value))); });
+  connect(field, &NumberField::edited, this,
+          [this](double value) { apply(jsonText(nlohmann::json(value))); });
   if (parameter_.type == ParameterType::Integer) {
     field->disconnect(this);
-    connect(field, &NumberField::edited, this, [this](double value) { apply(QString::number(qint64(value))); });
+    connect(field, &NumberField::edited, this,
+            [this](double value) { apply(QString::number(qint64(value))); });
   }
   connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(title_); });
   connect(field, &NumberField::gestureEnded, this, [this] { document_.endGesture(); });
@@ -162,7 +181,9 @@ QWidget* PropertyRow::makeNumber() {
 
 QWidget* PropertyRow::makeColor() {
   auto* field = new ColorField(parameter_.high > 1 ? ColorField::Kind::Light : ColorField::Kind::Reflectance);
-  connect(field, &ColorField::edited, this, [this](const Rgb& c) { apply(jsonText(nlohmann::json{c.x, c.y, c.z})); });
+  connect(field, &ColorField::edited, this, [this](const Rgb& c) {
+    apply(jsonText(nlohmann::json{c.x, c.y, c.z}));
+  });
   connect(field, &ColorField::gestureBegan, this, [this] { document_.beginGesture(title_); });
   connect(field, &ColorField::gestureEnded, this, [this] { document_.endGesture(); });
   show_ = [this, field] {
@@ -179,9 +200,10 @@ QWidget* PropertyRow::makeChoice() {
   box->setMinimumContentsLength(6);
   box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   connect(box, &QComboBox::textActivated, this, &PropertyRow::apply);
-  box->installEventFilter(this);
+
   show_ = [this, box] {
-    box->setCurrentText(QString::fromStdString(getByPath(document_.recipe(), path_.toStdString()).get<std::string>()));
+    box->setCurrentText(
+        QString::fromStdString(getByPath(document_.recipe(), path_.toStdString()).get<std::string>()));
   };
   return box;
 }
@@ -210,8 +232,8 @@ void PropertyRow::scrubFromLabel(QEvent* event) {
   if (event->type() == QEvent::MouseButtonDblClick) return reset();
   if (!field) return;
   auto* mouse = static_cast<QMouseEvent*>(event);
-  QMouseEvent moved(mouse->type(), field->mapFromGlobal(mouse->globalPosition()), mouse->globalPosition(), mouse->button(),
-                    mouse->buttons(), mouse->modifiers());
+  QMouseEvent moved(mouse->type(), field->mapFromGlobal(mouse->globalPosition()), mouse->globalPosition(),
+                    mouse->button(), mouse->buttons(), mouse->modifiers());
   QApplication::sendEvent(field, &moved);
 }
 
@@ -221,6 +243,12 @@ bool PropertyRow::eventFilter(QObject* watched, QEvent* event) {
                             type == QEvent::MouseButtonRelease || type == QEvent::MouseButtonDblClick)) {
     if (static_cast<QMouseEvent*>(event)->button() == Qt::RightButton) return false;
     scrubFromLabel(event);
+    return true;
+  }
+  // Everywhere on a row the same menu, but for a text that is being edited.
+  const bool typing = qobject_cast<QLineEdit*>(editor_) && editor_->hasFocus();
+  if (watched == editor_ && type == QEvent::ContextMenu && !typing) {
+    contextMenuEvent(static_cast<QContextMenuEvent*>(event));
     return true;
   }
   // A combo box must not change while a panel is scrolled over it.
@@ -237,13 +265,17 @@ void PropertyRow::contextMenuEvent(QContextMenuEvent* event) {
                  [this] { QApplication::clipboard()->setText(valueText()); });
   menu.addAction(icon(QStringLiteral("edit-paste")), tr("Paste value"), this,
                  [this] { apply(QApplication::clipboard()->text()); });
-  QAction* back = menu.addAction(icon(QStringLiteral("edit-reset")), tr("Reset to %1").arg(
-                                     QString::fromStdString(parameter_.defaultText)), this, &PropertyRow::reset);
+  QAction* back = menu.addAction(icon(QStringLiteral("edit-reset")),
+                                 tr("Reset to %1").arg(QString::fromStdString(parameter_.defaultText)), this,
+                                 &PropertyRow::reset);
   back->setEnabled(!isDefault());
   menu.addSeparator();
-  menu.addAction(icon(QStringLiteral("help-about")), tr("What does this cost?"), this, [this, at = event->globalPos()] {
-    QToolTip::showText(at, tr("A change of \u201c%1\u201d: %2").arg(title_, QString::fromStdString(parameter_.cost)), this);
-  });
+  menu.addAction(
+      icon(QStringLiteral("help-about")), tr("What does this cost?"), this, [this, at = event->globalPos()] {
+        QToolTip::showText(
+            at, tr("A change of \u201c%1\u201d: %2").arg(title_, QString::fromStdString(parameter_.cost)),
+            this);
+      });
   menu.exec(event->globalPos());
 }
 

@@ -31,10 +31,21 @@ Section::Section(const QString& title, QWidget* parent)
   all->addWidget(body_);
 }
 
-void Section::setTitle(const QString& title) { header_->setText(title); }
-void Section::add(QWidget* widget) { rows_->addWidget(widget); }
-void Section::addLayout(QLayout* layout) { rows_->addLayout(layout); }
-bool Section::isOpen() const { return header_->isChecked(); }
+void Section::setTitle(const QString& title) {
+  header_->setText(title);
+}
+void Section::add(QWidget* widget) {
+  rows_->addWidget(widget);
+}
+void Section::addLayout(QLayout* layout) {
+  rows_->addLayout(layout);
+}
+bool Section::isOpen() const {
+  return header_->isChecked();
+}
+QString Section::title() const {
+  return header_->text();
+}
 
 void Section::setOpen(bool open) {
   header_->setChecked(open);
@@ -59,7 +70,9 @@ DockColumn::DockColumn(QWidget* parent) : QWidget(parent), rows_(nullptr) {
   setObjectName(QStringLiteral("dockBody"));
 }
 
-void DockColumn::add(QWidget* widget) { rows_->insertWidget(rows_->count() - 1, widget); }
+void DockColumn::add(QWidget* widget) {
+  rows_->insertWidget(rows_->count() - 1, widget);
+}
 
 void DockColumn::addFilling(QWidget* widget) {
   rows_->setStretch(rows_->count() - 1, 0);
@@ -75,6 +88,7 @@ QWidget* fieldRow(const QString& title, QWidget* field, const QString& tip) {
   layout->setSpacing(kGrid);
   auto* label = new QLabel(title);
   label->setFixedWidth(kLabelWidth);
+  label->setBuddy(field);
   setRole(label, "muted");
   layout->addWidget(label);
   layout->addWidget(field, 1);

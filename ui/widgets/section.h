@@ -18,6 +18,7 @@ class Section : public QWidget {
   void add(QWidget* widget);
   void addLayout(class QLayout* layout);
   void setOpen(bool open);
+  QString title() const;
   bool isOpen() const;
 
  private:

@@ -1,15 +1,15 @@
 #include "ui/widgets/theme.h"
 
 #include <QApplication>
-#include <QBuffer>
 #include <QFile>
 #include <QFont>
-#include <QImageReader>
 #include <QPalette>
-#include <QPixmap>
 #include <QStyle>
 #include <QStyleFactory>
 #include <QWidget>
+
+#include <algorithm>
+#include <cmath>
 
 namespace prt::ui {
 
@@ -52,16 +52,9 @@ QString styleSheetOf(const Theme& t) {
       {"@fieldHover", t.fieldHover}, {"@onAccent", t.onAccent}, {"@window", t.window}, {"@accent", t.accent},
       {"@failed", t.failed},         {"@panel", t.panel},       {"@field", t.field},   {"@muted", t.muted},
       {"@stale", t.stale},           {"@line", t.line},         {"@text", t.text},     {"@done", t.done}};
+  sheet.replace(QStringLiteral("@theme"), t.name);  // of pictures
   for (const auto& [name, color] : colors) sheet.replace(QLatin1String(name), color.name());
   return sheet;
-}
-
-QPixmap render(QByteArray svg, const QColor& color, int pixels) {
-  svg.replace("#232629", color.name().toLatin1());
-  QBuffer buffer(&svg);
-  QImageReader reader(&buffer, "svg");
-  reader.setScaledSize(QSize(pixels, pixels));
-  return QPixmap::fromImage(reader.read());
 }
 
 }  // namespace
@@ -74,16 +67,66 @@ const Theme& darkTheme() {
                           .fieldHover = QColor(0x38, 0x38, 0x38),
                           .line = QColor(0x3a, 0x3a, 0x3a),
                           .text = QColor(0xd6, 0xd6, 0xd6),
-                          .muted = QColor(0x9a, 0x9a, 0x9a),
+                          .muted = QColor(0xa4, 0xa4, 0xa4),
                           .accent = QColor(0xe0, 0xa3, 0x41),
                           .onAccent = QColor(0x1e, 0x1e, 0x1e),
                           .done = QColor(0x6f, 0xb3, 0x72),
                           .stale = QColor(0xd9, 0x9a, 0x3c),
-                          .failed = QColor(0xec, 0x7f, 0x75)};
+                          .failed = QColor(0xf0, 0x8b, 0x82)};
   return dark;
 }
 
-const Theme& theme() { return current; }
+// Greys as far from white as the dark ones are from black; text, accent and states darkened until they read.
+const Theme& lightTheme() {
+  static const Theme light{.name = QStringLiteral("light"),
+                           .window = QColor(0xdc, 0xdc, 0xdc),
+                           .panel = QColor(0xec, 0xec, 0xec),
+                           .field = QColor(0xfa, 0xfa, 0xfa),
+                           .fieldHover = QColor(0xff, 0xff, 0xff),
+                           .line = QColor(0xc6, 0xc6, 0xc6),
+                           .text = QColor(0x24, 0x24, 0x24),
+                           .muted = QColor(0x50, 0x50, 0x50),
+                           .accent = QColor(0x87, 0x54, 0x00),
+                           .onAccent = QColor(0xff, 0xff, 0xff),
+                           .done = QColor(0x2a, 0x6b, 0x30),
+                           .stale = QColor(0x87, 0x54, 0x00),
+                           .failed = QColor(0xb0, 0x2a, 0x20)};
+  return light;
+}
+
+const Theme* themeNamed(const QString& name) {
+  for (const Theme* t : {&darkTheme(), &lightTheme()})
+    if (t->name == name) return t;
+  return nullptr;
+}
+
+const Theme& theme() {
+  return current;
+}
+
+QColor Theme::*roleOf(const QColor& color) {
+  if (!color.isValid()) return nullptr;
+  for (QColor Theme::*role : {&Theme::text, &Theme::muted, &Theme::accent, &Theme::onAccent, &Theme::done,
+                              &Theme::stale, &Theme::failed, &Theme::line})
+    if (current.*role == color) return role;
+  return nullptr;
+}
+
+QColor mixed(const QColor& a, const QColor& b, double share) {
+  const auto mix = [share](float x, float y) { return float(x + (y - x) * share); };
+  return QColor::fromRgbF(mix(a.redF(), b.redF()), mix(a.greenF(), b.greenF()), mix(a.blueF(), b.blueF()));
+}
+
+double contrast(const QColor& a, const QColor& b) {
+  const auto luminanceOf = [](const QColor& c) {
+    const auto linear = [](double v) {
+      return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
+  };
+  const double x = luminanceOf(a), y = luminanceOf(b);
+  return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
+}
 
 void applyTheme(QApplication& application, const Theme& t) {
   current = t;
@@ -98,18 +141,6 @@ void applyTheme(QApplication& application, const Theme& t) {
 void setRole(QWidget* widget, const char* role) {
   widget->setProperty("role", QString::fromLatin1(role));
   widget->style()->polish(widget);
-}
-
-QIcon icon(const QString& name, const QColor& color) {
-  QFile file(QStringLiteral(":/icons/%1.svg").arg(name));
-  if (!file.open(QIODevice::ReadOnly)) return {};
-  const QByteArray svg = file.readAll();
-  QIcon result;
-  for (const int pixels : {16, 24, 32, 48}) {
-    result.addPixmap(render(svg, color.isValid() ? color : current.text, pixels));
-    result.addPixmap(render(svg, current.muted.darker(140), pixels), QIcon::Disabled);
-  }
-  return result;
 }
 
 }  // namespace prt::ui

@@ -3,6 +3,8 @@
 #include "ui/widgets/state_dot.h"
 #include "ui/widgets/theme.h"
 
+#include <QAction>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -31,6 +33,23 @@ void WorkflowStrip::addStep(const QString& title, const QString& tip, std::funct
   row_->addWidget(dot);
   row_->addWidget(button);
   steps_.push_back({dot, std::move(status)});
+}
+
+void WorkflowStrip::addLayoutChoice(QAction* action) {
+  if (!layouts_) {
+    auto* frame = new QFrame;
+    frame->setObjectName(QStringLiteral("layoutChoices"));
+    layouts_ = new QHBoxLayout(frame);
+    layouts_->setContentsMargins(2, 2, 2, 2);
+    layouts_->setSpacing(2);
+    row_->addSpacing(4 * kGrid);
+    row_->addWidget(frame);
+  }
+  auto* button = new QToolButton;
+  button->setDefaultAction(action);
+  button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+  button->setFocusPolicy(Qt::NoFocus);
+  layouts_->addWidget(button);
 }
 
 void WorkflowStrip::refresh() {

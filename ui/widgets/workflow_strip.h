@@ -1,6 +1,6 @@
 #pragma once
 // The steps of the work from left to right, each with the state of what it made; a click brings the
-// dock of that step to the front.
+// dock of that step to the front. After them the layouts for the moods of work.
 
 #include "ui/model/bake_controller.h"
 
@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+class QAction;
 class QHBoxLayout;
 
 namespace prt::ui {
@@ -22,6 +23,8 @@ class WorkflowStrip : public QWidget {
   /// Appends a step; `status` is asked whenever refresh() is called.
   void addStep(const QString& title, const QString& tip, std::function<ProductStatus()> status,
                std::function<void()> activate);
+  /// Appends a button for a layout at the far end; it is checked as the action is.
+  void addLayoutChoice(QAction* action);
   void refresh();
 
  private:
@@ -31,6 +34,7 @@ class WorkflowStrip : public QWidget {
   };
   QHBoxLayout* row_;
   std::vector<Step> steps_;
+  QHBoxLayout* layouts_ = nullptr;  // made with the first choice
 };
 
 }  // namespace prt::ui
