@@ -122,7 +122,6 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   ExportManifest manifest(folder, "npy");
   manifest.set("vertices", vertices)
       .set("samples", samples.size())
-      .set("samples", samples.size())
       .set("faces", scene.mesh.triangleCount())
       .set("bands", transfer.bands)
       .set("functions", transfer.functions());
