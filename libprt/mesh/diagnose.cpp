@@ -7,6 +7,8 @@
 #include "libprt/mesh/weld.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace prt {
 namespace {
@@ -54,7 +56,9 @@ class Diagnosis {
     for (std::size_t v = 0; v < representative_.size(); ++v) {
       check_();
       if (!finite(soup_.positions[v])) report_.nonFiniteVertices.add(std::uint32_t(v));
-      if (representative_[v] != v) report_.duplicateVertices.add(std::uint32_t(v));
+      if (representative_[v] == v) continue;
+      report_.duplicateVertices.add(std::uint32_t(v));
+      placePoint(report_.duplicateVertices, std::uint32_t(v));
     }
   }
 
@@ -75,18 +79,56 @@ class Diagnosis {
         corners_[c] = representative_[v];
       }
       if (!inRange) report_.outOfRangeFaces.add(std::uint32_t(f));
+      if (!inRange) placeUsableCorners(report_.outOfRangeFaces, f);
+      else if (!isFinite) placeUsableCorners(report_.nonFiniteVertices, f);
       const bool usable = inRange && isFinite;
       const bool spans = usable && threeDifferent(f);
-      if (usable && (!spans || hasNoArea(f))) report_.degenerateFaces.add(std::uint32_t(f));
+      if (usable && (!spans || hasNoArea(f))) {
+        report_.degenerateFaces.add(std::uint32_t(f));
+        placeOutline(report_.degenerateFaces, f);
+      }
       skip_[f] = !spans;
       if (!spans) continue;
       ++solidFaces_;
       report_.triangles += soup_.face(f).size() - 2;
       for (std::uint32_t c = soup_.faceStart[f]; c < soup_.faceStart[f + 1]; ++c) used[corners_[c]] = true;
     }
-    for (std::size_t v = 0; v < referenced.size(); ++v)
-      if (!referenced[v]) report_.unreferencedVertices.add(std::uint32_t(v));
+    for (std::size_t v = 0; v < referenced.size(); ++v) {
+      if (referenced[v]) continue;
+      report_.unreferencedVertices.add(std::uint32_t(v));
+      if (finite(soup_.positions[v])) placePoint(report_.unreferencedVertices, std::uint32_t(v));
+    }
     measure(used);
+  }
+
+  void placePoint(Defect& defect, std::uint32_t v) {
+    defect.places.add(DefectPlaces::Points, {&soup_.positions[v], 1});
+  }
+
+  void placeEdge(Defect& defect, std::uint32_t a, std::uint32_t b) {
+    defect.places.add(DefectPlaces::Edges, std::array{soup_.positions[a], soup_.positions[b]});
+  }
+
+  void placeUsableCorners(Defect& defect, std::size_t f) {
+    std::vector<DVec3> corners;
+    for (const std::uint32_t v : soup_.face(f))
+      if (v < soup_.positions.size() && finite(soup_.positions[v])) corners.push_back(soup_.positions[v]);
+    defect.places.add(DefectPlaces::Points, corners);
+  }
+
+  void placeOutline(Defect& defect, std::size_t f) {
+    if (defect.places.full()) return;
+    std::vector<DVec3> ends;
+    const auto face = weldedFace(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+      ends.insert(ends.end(), {soup_.positions[face[i]], soup_.positions[face[(i + 1) % face.size()]]});
+    defect.places.add(DefectPlaces::Edges, ends);
+  }
+
+  void appendTriangles(std::uint32_t f, std::vector<DVec3>& corners) const {
+    forEachTriangle(f, [&](const DVec3& a, const DVec3& b, const DVec3& c) {
+      corners.insert(corners.end(), {a, b, c});
+    });
   }
 
   void measure(const std::vector<bool>& used) {
@@ -152,8 +194,15 @@ class Diagnosis {
       if (number == firstWith.size())
         firstWith.push_back(f);
       else if (sortedFace(f) == sortedFace(firstWith[number]))
-        report_.duplicateFaces.add(f);
+        addDuplicateFace(f);
     }
+  }
+
+  void addDuplicateFace(std::uint32_t f) {
+    report_.duplicateFaces.add(f);
+    std::vector<DVec3> corners;
+    appendTriangles(f, corners);
+    report_.duplicateFaces.places.add(DefectPlaces::Triangles, corners);
   }
 
   void components() {
@@ -189,8 +238,12 @@ class Diagnosis {
         if (count % 2 == 1) open[faceOfCorner[side]] = true;
       }
       if (count == 1) ++report_.boundaryEdges;
-      if (count > 2) report_.nonManifoldEdges.add(edge.a);
-      if (count == 2 && corners_[edge.sides[0]] == corners_[edge.sides[1]]) report_.flippedEdges.add(edge.a);
+      const bool flipped = count == 2 && corners_[edge.sides[0]] == corners_[edge.sides[1]];
+      for (Defect* defect : {count > 2 ? &report_.nonManifoldEdges : nullptr, flipped ? &report_.flippedEdges : nullptr}) {
+        if (!defect) continue;
+        defect->add(edge.a);
+        placeEdge(*defect, edge.a, edge.b);
+      }
     }
     insideOut(surfaces, open);
   }
@@ -217,8 +270,16 @@ class Diagnosis {
       ++report_.closedSurfaces;
       if (volume[f] >= -1e-9 * std::pow(area[f], 1.5)) continue;  // what encloses nothing has no outside
       work += double(solidFaces_);
-      if (work > kCavityWork || !insideAnother(f, surfaces, closed)) report_.insideOut.add(f);
+      if (work > kCavityWork || !insideAnother(f, surfaces, closed)) addInsideOut(f, surfaces);
     }
+  }
+
+  void addInsideOut(std::uint32_t surface, UnionFind& surfaces) {
+    report_.insideOut.add(surface);
+    std::vector<DVec3> corners;
+    for (std::uint32_t f = 0; f < skip_.size() && corners.size() < DefectPlaces::kMost; ++f)
+      if (!skip_[f] && surfaces.find(f) == surface) appendTriangles(f, corners);
+    report_.insideOut.places.add(DefectPlaces::Triangles, corners);
   }
 
   template <class Visit>
@@ -268,8 +329,11 @@ class Diagnosis {
         if (fan != fans.find(c)) several[corners_[c]] = true;
       }
     }
-    for (std::size_t v = 0; v < several.size(); ++v)
-      if (several[v]) report_.nonManifoldVertices.add(std::uint32_t(v));
+    for (std::size_t v = 0; v < several.size(); ++v) {
+      if (!several[v]) continue;
+      report_.nonManifoldVertices.add(std::uint32_t(v));
+      placePoint(report_.nonManifoldVertices, std::uint32_t(v));
+    }
   }
 
   /// Boundary edges that end in one fan belong to one loop.
@@ -279,12 +343,19 @@ class Diagnosis {
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (edges[e].faceCount() == 1) boundary.push_back(edges[e].sides[0]);
     for (std::uint32_t side : boundary) loops.join(fans.find(side), fans.find(next[side]));
+    std::map<std::uint32_t, std::vector<DVec3>> edgesOf;  // the first loops', in rising order of their first side
+    std::vector<std::uint32_t> order;
     std::vector<bool> counted(corners_.size(), false);
     for (std::uint32_t side : boundary) {
       const std::uint32_t loop = loops.find(fans.find(side));
       if (!counted[loop]) report_.holes.add(corners_[side]);
+      if (!counted[loop] && order.size() < DefectPlaces::kMost / 6) order.push_back(loop), edgesOf[loop];
       counted[loop] = true;
+      const auto kept = edgesOf.find(loop);
+      if (kept == edgesOf.end() || kept->second.size() >= DefectPlaces::kMost) continue;
+      kept->second.insert(kept->second.end(), {soup_.positions[corners_[side]], soup_.positions[corners_[next[side]]]});
     }
+    for (const std::uint32_t loop : order) report_.holes.places.add(DefectPlaces::Edges, edgesOf[loop]);
   }
 
   const PolygonSoup& soup_;

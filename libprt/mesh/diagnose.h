@@ -2,6 +2,7 @@
 // What is wrong with a mesh: counts, and where.
 
 #include "libprt/core/job.h"
+#include "libprt/mesh/defect_places.h"
 #include "libprt/mesh/soup.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +18,10 @@ struct Defect {
 
   std::size_t count = 0;
   std::vector<std::uint32_t> first;  ///< at most kListed, in rising order
+  /// Where they are, in the coordinates of what was diagnosed: vertices as points, edges and degenerate faces
+  /// as edges, a hole as the edges of its loop, other faces as triangles. Of a non-finite vertex or an index
+  /// out of range, the finite corners of the faces that use it.
+  DefectPlaces places;
 
   void add(std::uint32_t element) {
     if (++count <= kListed) first.push_back(element);

@@ -1,6 +1,6 @@
 // Reports as one line of text and as JSON.
 
-#include "libprt/mesh/repair.h"
+#include "libprt/mesh/defect_list.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,47 +9,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// 1234567 -> "1,234,567".
-std::string grouped(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, 1, ',');
-  return digits;
-}
-
 /// "1 hole", "2 holes"; the plural of "vertex" is "vertices".
 std::string counted(std::size_t number, const std::string& singular, const std::string& plural = {}) {
   const std::string many = plural.empty() ? singular + "s" : plural;
-  return grouped(number) + " " + (number == 1 ? singular : many);
+  return groupedDigits(number) + " " + (number == 1 ? singular : many);
 }
 
 void list(std::string& text, const std::string& item) {
   text.append(text.empty() ? "" : ", ").append(item);
 }
-
-struct NamedDefect {
-  const char* key;
-  const char* singular;
-  const char* plural;
-  Defect MeshReport::*member;
-};
-
-constexpr NamedDefect kDefects[] = {
-    {"out_of_range_faces", "face with an index out of range", "faces with an index out of range",
-     &MeshReport::outOfRangeFaces},
-    {"non_finite_vertices", "non-finite vertex", "non-finite vertices", &MeshReport::nonFiniteVertices},
-    {"degenerate_faces", "degenerate face", "degenerate faces", &MeshReport::degenerateFaces},
-    {"duplicate_faces", "duplicate face", "duplicate faces", &MeshReport::duplicateFaces},
-    {"duplicate_vertices", "duplicate vertex", "duplicate vertices", &MeshReport::duplicateVertices},
-    {"unreferenced_vertices", "unreferenced vertex", "unreferenced vertices",
-     &MeshReport::unreferencedVertices},
-    {"non_manifold_edges", "non-manifold edge", "non-manifold edges", &MeshReport::nonManifoldEdges},
-    {"non_manifold_vertices", "non-manifold vertex", "non-manifold vertices",
-     &MeshReport::nonManifoldVertices},
-    {"holes", "hole", "holes", &MeshReport::holes},
-    {"flipped_edges", "edge between faces wound against each other",
-     "edges between faces wound against each other", &MeshReport::flippedEdges},
-    {"inside_out", "inside-out closed surface", "inside-out closed surfaces", &MeshReport::insideOut},
-};
 
 Json vectorJson(const DVec3& v) {
   return {v.x, v.y, v.z};
@@ -82,21 +50,24 @@ constexpr NamedCount kActions[] = {
 
 }  // namespace
 
-std::string toText(const MeshReport& report) {
+std::string factsText(const MeshReport& report) {
   std::string facts;
   list(facts, counted(report.vertices, "vertex", "vertices"));
   list(facts, counted(report.faces, "face"));
   list(facts, counted(report.components, "component"));
-  facts += report.closed() ? ", closed" : ", open";
+  return facts + (report.closed() ? ", closed" : ", open");
+}
+
+std::string toText(const MeshReport& report) {
   std::string defects;
-  for (const NamedDefect& d : kDefects) {
-    const std::size_t count = (report.*d.member).count;
+  for (int i = 0; i < kDefectKinds; ++i) {
+    const std::size_t count = defectOf(report, DefectKind(i)).count;
     if (count == 0) continue;
-    list(defects, counted(count, d.singular, d.plural));
-    if (d.member == &MeshReport::holes)
+    list(defects, defectName(DefectKind(i), count));
+    if (DefectKind(i) == DefectKind::Holes)
       defects.append(" (").append(counted(report.boundaryEdges, "boundary edge")).append(")");
   }
-  return facts.append("; ").append(defects.empty() ? "no defects" : defects);
+  return factsText(report).append("; ").append(defects.empty() ? "no defects" : defects);
 }
 
 nlohmann::json toJson(const MeshReport& report) {
@@ -112,9 +83,9 @@ nlohmann::json toJson(const MeshReport& report) {
             {"euler", report.euler},
             {"bounds", {{"low", vectorJson(report.low)}, {"high", vectorJson(report.high)}}}};
   Json& defects = json["defects"] = Json::object();
-  for (const NamedDefect& d : kDefects) {
-    const Defect& defect = report.*d.member;
-    defects[d.key] = {{"count", defect.count}, {"first", defect.first}};
+  for (int i = 0; i < kDefectKinds; ++i) {
+    const Defect& defect = defectOf(report, DefectKind(i));
+    defects[defectKey(DefectKind(i))] = {{"count", defect.count}, {"first", defect.first}};
   }
   return json;
 }
@@ -125,14 +96,20 @@ bool RepairReport::changedAnything() const {
   return offset != DVec3(0);
 }
 
-std::string toText(const RepairReport& report) {
-  std::string text;
+std::vector<std::string> repairActions(const RepairReport& report) {
+  std::vector<std::string> actions;
   for (const NamedCount& action : kActions) {
     const std::size_t count = report.*action.member;
     if (count > 0)
-      list(text, std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
+      actions.push_back(std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
   }
-  if (report.offset != DVec3(0)) list(text, "moved to the origin to keep precision");
+  if (report.offset != DVec3(0)) actions.emplace_back("moved to the origin to keep precision");
+  return actions;
+}
+
+std::string toText(const RepairReport& report) {
+  std::string text;
+  for (const std::string& action : repairActions(report)) list(text, action);
   return text.empty() ? "nothing to repair" : text;
 }
 

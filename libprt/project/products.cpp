@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -115,13 +117,74 @@ void checkShapes(const Transfer& t) {
     requireShape(t.diffuse, vectorShape(samples, k, t.channels), false, stage);
 }
 
+std::string defectArray(const char* what, DefectKind kind, std::size_t object) {
+  return arrayName((std::string(what) + "." + defectKey(kind)).c_str(), object);
+}
+
+/// Lines of one object into its description and the arrays.
+json saveDefects(const std::vector<DefectLine>& lines, std::size_t object, ProductData& data) {
+  json list = json::array();
+  for (const DefectLine& line : lines) {
+    list.push_back({{"kind", defectKey(line.kind)}, {"found", line.found}, {"left", line.left}, {"shape", int(line.places.shape)}});
+    data.arrays[defectArray("defectPlaces", line.kind, object)] =
+        rows(std::vector<Vec3>(line.places.positions.begin(), line.places.positions.end()));
+    data.arrays[defectArray("defectStarts", line.kind, object)] =
+        Array::from<std::uint32_t>(line.places.starts, {std::int64_t(line.places.starts.size())});
+  }
+  return list;
+}
+
+/// Elements that lie one behind the other, of whole simplices, at finite places.
+DefectPlaces loadPlaces(const ProductData& data, const json& line, DefectKind kind, std::size_t object) {
+  DefectPlaces places;
+  places.shape = DefectPlaces::Shape(wholeNumber(line, "shape", DefectPlaces::Points, DefectPlaces::Triangles));
+  for (const Vec3& p : vectors<Vec3>(data, defectArray("defectPlaces", kind, object))) places.positions.emplace_back(p);
+  const auto starts = data.array(defectArray("defectStarts", kind, object), DType::u32, 1).as<std::uint32_t>();
+  places.starts.assign(starts.begin(), starts.end());
+  const bool whole = std::ranges::all_of(places.starts, [&](std::uint32_t s) { return s % places.shape == 0; });
+  const bool sound = std::ranges::all_of(places.positions, [](const DVec3& p) { return isFinite(Vec3(p)); });
+  if (places.starts.empty() || places.starts.front() != 0 || places.starts.back() != places.positions.size() ||
+      !std::ranges::is_sorted(places.starts) || !whole || !sound || places.positions.size() > DefectPlaces::kMost)
+    unfit("mesh");
+  return places;
+}
+
+std::vector<DefectLine> loadDefects(const ProductData& data, const json& description, std::size_t object) {
+  std::vector<DefectLine> lines;
+  const auto list = description.find("list");
+  if (list == description.end()) return lines;
+  if (!list->is_array()) unfit("mesh");
+  for (const json& each : *list) {
+    const auto kind = each.is_object() && each.contains("kind") && each["kind"].is_string()
+                          ? defectKind(each["kind"].get<std::string>())
+                          : std::nullopt;
+    if (!kind) unfit("mesh");
+    constexpr int kMany = std::numeric_limits<int>::max();
+    lines.push_back({*kind, std::size_t(wholeNumber(each, "found", 0, kMany)), std::size_t(wholeNumber(each, "left", 0, kMany)),
+                     loadPlaces(data, each, *kind, object)});
+  }
+  return lines;
+}
+
+/// A description is an object whose texts are texts.
+void checkDescription(const json& description) {
+  if (!description.is_object()) unfit("mesh");
+  for (const char* name : {"text", "facts"})
+    if (description.contains(name) && !description[name].is_string()) unfit("mesh");
+  const auto notes = description.find("notes");
+  if (notes == description.end()) return;
+  if (!notes->is_array() || !std::all_of(notes->begin(), notes->end(), [](const json& n) { return n.is_string(); })) unfit("mesh");
+}
+
 }  // namespace
 
 ProductData MeshProduct::save() const {
   json meta{{"objects", json::array()}};
   ProductData data;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    meta["objects"].push_back(json::parse(reports[i]));
+    json description = json::parse(reports[i]);
+    if (!defects[i].empty()) description["list"] = saveDefects(defects[i], i, data);
+    meta["objects"].push_back(std::move(description));
     data.arrays[arrayName("positions", i)] = rows(meshes[i]->positions);
     data.arrays[arrayName("normals", i)] = rows(meshes[i]->normals);
     data.arrays[arrayName("triangles", i)] = rows(meshes[i]->triangles);
@@ -138,14 +201,24 @@ ProductPtr MeshProduct::load(ProductData data) {
     throw FileError("the list of meshes is missing", "project", "bake again");
   auto product = std::make_shared<MeshProduct>();
   for (std::size_t i = 0; i < meta["objects"].size(); ++i) {
+    json description = meta["objects"][i];
+    checkDescription(description);
     product->meshes.push_back(std::make_shared<TriMesh>(loadTriMesh(data, i)));
-    product->reports.push_back(meta["objects"][i].dump());
+    product->defects.push_back(loadDefects(data, description, i));
+    description.erase("list");
+    product->reports.push_back(description.dump());
   }
   return product;
 }
 
 std::string MeshProduct::repairText(std::size_t object) const {
   return json::parse(reports[object]).value("text", "nothing to repair");
+}
+
+std::string MeshProduct::factsText(std::size_t object) const { return json::parse(reports[object]).value("facts", ""); }
+
+std::vector<std::string> MeshProduct::notes(std::size_t object) const {
+  return json::parse(reports[object]).value("notes", std::vector<std::string>{});
 }
 
 ProductData DirectProduct::save() const {

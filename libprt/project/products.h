@@ -1,6 +1,7 @@
 #pragma once
 // The products of the stages, as the types that renderers and exports use.
 
+#include "libprt/mesh/defect_list.h"
 #include "libprt/mesh/mesh.h"
 #include "libprt/mesh/tangent_frames.h"
 #include "libprt/project/product.h"
@@ -21,9 +22,16 @@ namespace prt {
 struct MeshProduct : Product {
   std::vector<std::shared_ptr<const TriMesh>> meshes;  ///< [objects]
   std::vector<std::string> reports;  ///< [objects] what was repaired, as JSON; "{}" for built-in meshes
+  /// [objects] what was wrong with the file, what became of it, and where on the mesh it is; empty for
+  /// built-in meshes.
+  std::vector<std::vector<DefectLine>> defects;
 
   /// What was repaired in one object, in words.
   std::string repairText(std::size_t object) const;
+  /// What the mesh is made of, in words; empty for built-in meshes.
+  std::string factsText(std::size_t object) const;
+  /// What the reader left out or took to mean something, one line each.
+  std::vector<std::string> notes(std::size_t object) const;
 
   ProductData save() const override;
   static ProductPtr load(ProductData data);
