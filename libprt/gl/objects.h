@@ -108,6 +108,8 @@ class Framebuffer : public detail::Handle<detail::deleteFramebuffer> {
   static Framebuffer create(int width, int height, PixelFormat colour, bool depth, int samples = 1);
 
   const Texture& colour() const { return colour_; }
+  /// Only when made with depth.
+  const Texture& depth() const { return depth_; }
   int width() const { return colour_.width(); }
   int height() const { return colour_.height(); }
   int samples() const { return colour_.samples(); }

@@ -1,0 +1,203 @@
+#include "libprt/gl/surface_overlay.h"
+
+#include "libprt/core/error.h"
+#include "libprt/shade/color_map.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace prt::gl {
+
+namespace {
+
+constexpr unsigned kPlacesBinding = 0;
+constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUnit = 3;
+
+/// Distances along the optical axis that hold the whole box; never nearer than a thousandth of it.
+Vec2 depthRange(const Camera& camera, const Box3& box) {
+  const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
+  const float middle = dot(camera.eye - box.center(), camera.axes().normal);
+  return {std::max(middle - 1.01f * radius, 1e-3f * radius),
+          std::max(middle + 1.01f * radius, 2e-3f * radius)};
+}
+
+Mat4 projectionOf(const OverlayPicture& picture, const Box3& box) {
+  const Vec2 depth = depthRange(picture.camera, box);
+  return picture.camera.projection(float(picture.width) / float(picture.height), depth.x, depth.y);
+}
+
+int supportedSamples(int wanted) {
+  GLint most = 1;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return std::clamp(wanted, 1, std::max(1, int(most)));
+}
+
+void fit(Framebuffer& target, const OverlayPicture& picture, PixelFormat format, bool depth, int samples) {
+  if (target && target.width() == picture.width && target.height() == picture.height &&
+      target.samples() == samples)
+    return;
+  target = Framebuffer::create(picture.width, picture.height, format, depth, samples);
+}
+
+}  // namespace
+
+SurfaceOverlay::SurfaceOverlay()
+    : surfaceProgram_(Program::fromLibrary("overlay_surface.vert", "overlay_surface.frag",
+                                           "#define SHADE_LEAST " + std::to_string(overlayShade(0)) + "\n")),
+      marksProgram_(Program::fromLibrary("overlay_marks.vert", "overlay_marks.frag")),
+      composeProgram_(Program::fromLibrary("fullscreen.vert", "overlay_compose.frag")),
+      meshArray_(VertexArray::create()),
+      emptyArray_(VertexArray::create()) {
+  for (Buffer* buffer : {&positions_, &normals_, &values_, &indices_, &points_, &edges_, &triangles_})
+    *buffer = Buffer::create();
+  const auto colors = magnitudeColors();
+  Image scale(int(colors.size()), 1, 4);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    for (int c = 0; c < 3; ++c) scale.data[4 * i + std::size_t(c)] = colors[i][c];
+    scale.data[4 * i + 3] = 1;
+  }
+  scale_ = Texture::fromImage(scale, Wrap::Clamp, false);
+  surfaceProgram_.set("scale", kScaleUnit);
+  surfaceProgram_.set("unknown", kUnknownColor);
+  marksProgram_.set("surfaceDepth", kOneSampleUnit);
+  marksProgram_.set("surfaceDepths", kManySamplesUnit);
+  composeProgram_.set("surface", kOneSampleUnit);
+  composeProgram_.set("surfaces", kManySamplesUnit);
+  composeProgram_.set("marks", kMarksUnit);
+  checkErrors("start of the overlay");
+}
+
+void SurfaceOverlay::setMesh(const TriMesh& mesh) {
+  vertexCount_ = mesh.vertexCount();
+  indexCount_ = int(3 * mesh.triangleCount());
+  bounds_ = mesh.bounds();
+  positions_.upload(std::span<const Vec3>(mesh.positions));
+  normals_.upload(std::span<const Vec3>(mesh.normals));
+  indices_.upload(std::span<const UVec3>(mesh.triangles));
+  setValues({});
+  meshArray_.floats(0, positions_, 3);
+  meshArray_.floats(1, normals_, 3);
+  meshArray_.floats(2, values_, 1);
+  meshArray_.indices(indices_);
+  checkErrors("upload of the overlay's mesh");
+}
+
+void SurfaceOverlay::setValues(std::span<const float> values) {
+  if (!values.empty() && values.size() != vertexCount_)
+    throw ValueError("an overlay of " + std::to_string(values.size()) + " values for a mesh of " +
+                         std::to_string(vertexCount_) + " vertices",
+                     "overlay", "give one value for each vertex");
+  hasValues_ = !values.empty();
+  const std::vector<float> none(hasValues_ ? 0 : vertexCount_, 0.0f);
+  values_.upload(hasValues_ ? values : std::span<const float>(none));
+}
+
+void SurfaceOverlay::setMarks(const SurfaceMarks& marks) {
+  pointCount_ = int(marks.points.size());
+  edgeCount_ = int(marks.edges.size() / 2);
+  triangleCount_ = int(marks.triangles.size() / 3);
+  points_.upload(std::span<const Vec3>(marks.points));
+  edges_.upload(std::span<const Vec3>(marks.edges));
+  triangles_.upload(std::span<const Vec3>(marks.triangles));
+  markColor_ = marks.color;
+}
+
+void SurfaceOverlay::draw(const OverlayPicture& picture, unsigned framebuffer) {
+  if (empty() || picture.width < 1 || picture.height < 1) return;
+  const int samples = supportedSamples(picture.grid * picture.grid);
+  drawSurface(picture, samples);
+  drawMarks(picture);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, picture.width, picture.height);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  compose(samples);
+  glDisable(GL_BLEND);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  checkErrors("drawing the overlay");
+}
+
+Image SurfaceOverlay::render(const OverlayPicture& picture) {
+  const Framebuffer target = Framebuffer::create(picture.width, picture.height, PixelFormat::Rgba32f, false);
+  target.bind();
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  draw(picture, target.id());
+  return target.read();
+}
+
+void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
+  fit(surface_, picture, PixelFormat::Rgba8, true, samples);
+  surface_.bind();
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearColor(0, 0, 0, 0);
+  glClearDepth(1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  surfaceProgram_.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
+  surfaceProgram_.set("eye", picture.camera.eye);
+  scale_.bind(kScaleUnit);
+  surfaceProgram_.use();
+  glBindVertexArray(meshArray_.id());
+  if (indexCount_ > 0) glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
+}
+
+// The strongest mark in each pixel: the order of marks does not matter, and what overlaps does not add up.
+void SurfaceOverlay::drawMarks(const OverlayPicture& picture) {
+  fit(marks_, picture, PixelFormat::Rgba8, false, 1);
+  marks_.bind();
+  glDisable(GL_DEPTH_TEST);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MAX);
+  const Mat4 projection = projectionOf(picture, bounds_);
+  surface_.depth().bind(surface_.samples() > 1 ? kManySamplesUnit : kOneSampleUnit);
+  marksProgram_.set("samples", surface_.samples());
+  marksProgram_.set("worldToClip", projection * picture.camera.view());
+  marksProgram_.set("size", Vec2(picture.width, picture.height));
+  marksProgram_.set("depthTerms", Vec3(projection[2][2], projection[3][2], projection[2][3]));
+  marksProgram_.set("fill", kMarkFill);
+  marksProgram_.set("hidden", kHiddenMark);
+  marksProgram_.set("lift", kMarkLift);
+  drawMarks(picture, triangles_, 3, triangleCount_);
+  drawMarks(picture, edges_, 2, edgeCount_);
+  drawMarks(picture, points_, 1, pointCount_);
+  glBlendEquation(GL_FUNC_ADD);
+  glDisable(GL_BLEND);
+}
+
+void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Buffer& places, int corners, int count) {
+  if (count == 0) return;
+  const float halfWidth = (corners == 1 ? kMarkRadius : kMarkHalfWidth) * picture.pixelScale;
+  marksProgram_.set("corners", corners);
+  marksProgram_.set("halfWidth", halfWidth);
+  marksProgram_.set("reach", halfWidth + kMarkOutline * picture.pixelScale);
+  places.bindStorage(kPlacesBinding);
+  marksProgram_.use();
+  glBindVertexArray(emptyArray_.id());
+  glDrawArrays(GL_TRIANGLES, 0, count * (corners == 3 ? 3 : 6));
+}
+
+void SurfaceOverlay::compose(int samples) {
+  surface_.colour().bind(samples > 1 ? kManySamplesUnit : kOneSampleUnit);
+  marks_.colour().bind(kMarksUnit);
+  composeProgram_.set("samples", samples);
+  composeProgram_.set("showSurface", hasValues_ ? 1 : 0);
+  composeProgram_.set("markColour", markColor_);
+  composeProgram_.use();
+  glBindVertexArray(emptyArray_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace prt::gl

@@ -1,0 +1,190 @@
+#include "libprt/shade/surface_overlay.h"
+
+#include "libprt/core/error.h"
+#include "libprt/core/parallel.h"
+#include "libprt/shade/color_map.h"
+#include "libprt/shade/raster.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+/// A point on the picture.
+struct Projected {
+  float x = 0, y = 0;  // pixels, from the top left
+  float inverseDepth =
+      0;  // 1 / distance along the optical axis; straight lines keep it linear on the picture
+  bool inFront = false;
+};
+
+class Projector {
+ public:
+  explicit Projector(const OverlayPicture& picture)
+      : axes_(picture.camera.axes()),
+        eye_(picture.camera.eye),
+        width_(float(picture.width)),
+        height_(float(picture.height)),
+        scale_(0.5f * height_ / std::tan(0.5f * picture.camera.verticalFov)) {}
+
+  Projected operator()(const Vec3& p) const {
+    const Vec3 local = axes_.toLocal(p - eye_);
+    const float depth = -local.z;
+    if (!(depth > 1e-6f * length(local))) return {};
+    return {0.5f * width_ + scale_ * local.x / depth, 0.5f * height_ - scale_ * local.y / depth, 1 / depth,
+            true};
+  }
+
+ private:
+  Frame axes_;
+  Vec3 eye_;
+  float width_, height_, scale_;
+};
+
+/// How much of each pixel marks cover: strongest mark, not the sum, so that what overlaps does not add up.
+class MarkCoverage {
+ public:
+  MarkCoverage(const OverlayPicture& picture, const std::vector<float>& surface)
+      : picture_(picture),
+        project_(picture),
+        surface_(surface),
+        mark_(surface.size(), 0.0f),
+        rim_(surface.size(), 0.0f) {}
+
+  void segment(const Vec3& a, const Vec3& b, float halfWidth) {
+    const Projected p = project_(a), q = project_(b);
+    if (!p.inFront || !q.inFront) return;
+    const float core = halfWidth * picture_.pixelScale, reach = core + kMarkOutline * picture_.pixelScale;
+    const Vec2 from(p.x, p.y), along(q.x - p.x, q.y - p.y);
+    const float square = dot(along, along);
+    overBox(std::min(p.x, q.x) - reach - 1, std::max(p.x, q.x) + reach + 1, std::min(p.y, q.y) - reach - 1,
+            std::max(p.y, q.y) + reach + 1, [&](std::size_t pixel, const Vec2& at) {
+              const float t = square > 0 ? std::clamp(dot(at - from, along) / square, 0.0f, 1.0f) : 0.0f;
+              const float away = length(at - from - t * along);
+              const float opacity = opacityAt(pixel, p.inverseDepth + t * (q.inverseDepth - p.inverseDepth));
+              raise(mark_[pixel], opacity * std::clamp(core - away + 0.5f, 0.0f, 1.0f));
+              raise(rim_[pixel], opacity * std::clamp(reach - away + 0.5f, 0.0f, 1.0f));
+            });
+  }
+
+  void triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Projected p = project_(a), q = project_(b), r = project_(c);
+    if (!p.inFront || !q.inFront || !r.inFront) return;
+    const float area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    if (area == 0) return;
+    overBox(std::min({p.x, q.x, r.x}), std::max({p.x, q.x, r.x}), std::min({p.y, q.y, r.y}),
+            std::max({p.y, q.y, r.y}), [&](std::size_t pixel, const Vec2& at) {
+              const float v = ((at.x - p.x) * (r.y - p.y) - (at.y - p.y) * (r.x - p.x)) / area;
+              const float w = ((q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x)) / area;
+              if (v < 0 || w < 0 || v + w > 1) return;
+              const float depth = p.inverseDepth + v * (q.inverseDepth - p.inverseDepth) +
+                                  w * (r.inverseDepth - p.inverseDepth);
+              raise(mark_[pixel], kMarkFill * opacityAt(pixel, depth));
+            });
+  }
+
+  /// Lays the marks over an image.
+  void lay(const Rgb& color, Image& image) const {
+    for (std::size_t i = 0; i < mark_.size(); ++i) {
+      const float cover = std::max(mark_[i], kRimOpacity * rim_[i]);
+      if (cover == 0) continue;
+      float* pixel = image.data.data() + 4 * i;
+      for (int c = 0; c < 3; ++c) pixel[c] = mark_[i] * color[c] + (1 - cover) * pixel[c];
+      pixel[3] = cover + (1 - cover) * pixel[3];
+    }
+  }
+
+ private:
+  static constexpr float kRimOpacity = 0.6f;
+
+  static void raise(float& value, float to) { value = std::max(value, to); }
+  float opacityAt(std::size_t pixel, float inverseDepth) const {
+    return inverseDepth * (1 + kMarkLift) >= surface_[pixel] ? 1.0f : kHiddenMark;
+  }
+
+  template <class Visit>
+  void overBox(float left, float right, float top, float bottom, const Visit& visit) {
+    const auto clamped = [](float v, int high) { return int(std::clamp(v, 0.0f, float(high))); };
+    const int x0 = clamped(std::floor(left), picture_.width), x1 = clamped(std::ceil(right), picture_.width);
+    const int y0 = clamped(std::floor(top), picture_.height),
+              y1 = clamped(std::ceil(bottom), picture_.height);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x)
+        visit(std::size_t(y) * std::size_t(picture_.width) + std::size_t(x),
+              Vec2(float(x) + 0.5f, float(y) + 0.5f));
+  }
+
+  const OverlayPicture& picture_;
+  Projector project_;
+  const std::vector<float>& surface_;  // inverse depth, 0 where nothing is seen
+  std::vector<float> mark_, rim_;
+};
+
+/// False colour of one fragment, display-encoded.
+Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f, const Vec3& eye) {
+  const UVec3& t = mesh.triangles[f.triangle];
+  const Vec3 weight(1 - f.barycentric.x - f.barycentric.y, f.barycentric);
+  const Vec3 p =
+      weight.x * mesh.positions[t.x] + weight.y * mesh.positions[t.y] + weight.z * mesh.positions[t.z];
+  const Vec3 n = weight.x * mesh.normals[t.x] + weight.y * mesh.normals[t.y] + weight.z * mesh.normals[t.z];
+  const bool known = values[t.x] >= 0 && values[t.y] >= 0 && values[t.z] >= 0;
+  const float value =
+      known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
+  const float lengths = length(n) * length(eye - p);
+  return overlayShade(lengths > 0 ? dot(n, eye - p) / lengths : 1.0f) * magnitudeColor(value);
+}
+
+}  // namespace
+
+Box3 SurfaceMarks::bounds() const {
+  Box3 box;
+  for (const auto* list : {&points, &edges, &triangles})
+    for (const Vec3& p : *list) box.extend(p);
+  return box;
+}
+
+Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
+                         const OverlayPicture& picture, Job& job) {
+  if (!values.empty() && values.size() != mesh.vertexCount())
+    throw ValueError("an overlay of " + std::to_string(values.size()) + " values for a mesh of " +
+                         std::to_string(mesh.vertexCount()) + " vertices",
+                     "overlay", "give one value for each vertex");
+  Image image(picture.width, picture.height, 4);
+  std::vector<float> surface(std::size_t(picture.width) * std::size_t(picture.height), 0.0f);
+  const Rasterizer rasterizer(mesh, picture.camera, picture.width, picture.height, picture.grid, job);
+  const float whole = float(picture.grid * picture.grid);
+  parallelFor(job, 0, rasterizer.tileCount(), 1, [&](std::size_t tile, std::size_t) {
+    SampleTile samples;
+    FragmentTile fragments;
+    rasterizer.drawFragments(tile, samples, fragments);
+    for (int y = 0; y < fragments.height; ++y)
+      for (int x = 0; x < fragments.width; ++x) {
+        float* out = image.pixel(fragments.x + x, fragments.y + y);
+        float& nearest =
+            surface[std::size_t(fragments.y + y) * std::size_t(picture.width) + std::size_t(fragments.x + x)];
+        for (int s = 0; s < picture.grid * picture.grid; ++s)
+          nearest = std::max(
+              nearest,
+              samples.inverseDepth[std::size_t((y * picture.grid + s / picture.grid) * samples.stride +
+                                               x * picture.grid + s % picture.grid)]);
+        if (values.empty()) continue;
+        for (const Fragment& f : fragments.pixel(std::size_t(y * fragments.width + x))) {
+          const float share = float(f.samples) / whole;
+          const Rgb color = fragmentColor(mesh, values, f, picture.camera.eye);
+          for (int c = 0; c < 3; ++c) out[c] += share * color[c];
+          out[3] += share;
+        }
+      }
+  });
+  if (marks.empty()) return image;
+  MarkCoverage coverage(picture, surface);
+  for (std::size_t i = 0; i + 2 < marks.triangles.size(); i += 3)
+    coverage.triangle(marks.triangles[i], marks.triangles[i + 1], marks.triangles[i + 2]);
+  for (std::size_t i = 0; i + 1 < marks.edges.size(); i += 2)
+    coverage.segment(marks.edges[i], marks.edges[i + 1], kMarkHalfWidth);
+  for (const Vec3& p : marks.points) coverage.segment(p, p, kMarkRadius);
+  coverage.lay(marks.color, image);
+  return image;
+}
+
+}  // namespace prt

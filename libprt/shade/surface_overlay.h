@@ -1,0 +1,53 @@
+#pragma once
+// What is drawn over a picture of the surface: false colour per vertex, and marks (points, edges, triangles)
+// that show through what hides them. The CPU's version; gl/surface_overlay draws the same in OpenGL.
+
+#include "libprt/core/image.h"
+#include "libprt/core/job.h"
+#include "libprt/mesh/mesh.h"
+#include "libprt/shade/camera.h"
+
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Places on the surface, in the mesh's frame, all of one colour.
+struct SurfaceMarks {
+  std::vector<Vec3> points;
+  std::vector<Vec3> edges;        ///< pairs of ends
+  std::vector<Vec3> triangles;    ///< triples of corners
+  Rgb color{1.0f, 0.31f, 0.16f};  ///< as the screen shows it
+
+  bool empty() const { return points.empty() && edges.empty() && triangles.empty(); }
+  /// Bounds of everything marked.
+  Box3 bounds() const;
+};
+
+struct OverlayPicture {
+  Camera camera;
+  int width = 0, height = 0;
+  int grid = 2;          ///< grid x grid samples per pixel at the edges of the surface
+  float pixelScale = 1;  ///< pixels of the picture per unit of the sizes below: high on dense screens
+};
+
+inline constexpr float kMarkRadius = 4.5f;      ///< of points, in units of pixelScale
+inline constexpr float kMarkHalfWidth = 1.25f;  ///< of edges
+inline constexpr float kMarkOutline = 1.0f;     ///< dark rim around both
+inline constexpr float kMarkFill = 0.7f;        ///< opacity of triangles
+inline constexpr float kHiddenMark = 0.3f;      ///< opacity of what lies behind the surface
+/// A mark counts as hidden when it lies this share of its distance behind the surface.
+inline constexpr float kMarkLift = 2e-3f;
+
+/// `values`: [V] of 0..1 on the magnitude scale (color_map.h), empty to leave the surface as it is. Returns
+/// float RGBA, premultiplied and display-encoded, to be laid over the picture. Throws ValueError when there
+/// are values but not one for each vertex.
+Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
+                         const OverlayPicture& picture, Job& job);
+
+/// How false colour is shaded so that shapes stay legible: a factor from the cosine between normal and view.
+constexpr float overlayShade(float cosine) {
+  return 0.78f + 0.22f * (cosine < 0 ? -cosine : cosine);
+}
+
+}  // namespace prt
