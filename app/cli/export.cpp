@@ -2,6 +2,7 @@
 
 #include "app/cli/session.h"
 #include "libprt/core/log.h"
+#include "libprt/project/errors.h"
 #include "libprt/project/export.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/project_file.h"
@@ -16,11 +17,24 @@ namespace fs = std::filesystem;
 struct Options {
   std::string project, npy, exr, gltf;
   double exposure = 0;
+  bool errors = false;
 };
+
+/// Where the bake is wrong under the project's lights, also in words.
+std::shared_ptr<const ErrorMap> estimate(Session& session, const ExportInput& input) {
+  const BakedScene& baked = input.baked;
+  const std::shared_ptr<const Transfer> transfer(baked.transfer, &baked.transfer->transfer);
+  const ErrorProbe probe = probeErrors(*baked.geometry->scene, *baked.samples->samples, transfer, input.recipe, session.job());
+  auto map = std::make_shared<ErrorMap>(probe.under(judgedLight(input.lights, transfer->bands, input.recipe.method)));
+  session.say(fmt::format("estimated error {:.2f} %: Monte Carlo {:.2f}, interpolation {:.2f}, truncation {:.2f}", 100 * map->totalRms(),
+                          100 * map->rms.x, 100 * map->rms.y, 100 * map->rms.z));
+  return map;
+}
 
 void exportProject(Session& session, const Options& options) {
   if (options.npy.empty() && options.exr.empty() && options.gltf.empty())
     throw UsageError("nothing to write is named", "", "add --npy DIR, --exr DIR or --gltf DIR");
+  if (options.errors && options.npy.empty()) throw UsageError("--error-estimate is written with the arrays", "", "add --npy DIR");
   const auto project = ProjectFile::open(options.project);
   const fs::path file = options.project, folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   Pipeline pipeline(project.get(), {folder});
@@ -28,9 +42,10 @@ void exportProject(Session& session, const Options& options) {
   const Recipe& recipe = project->recipe();
   const BakedScene baked = bakedScene(pipeline, recipe, options.project);
   const auto frames = pipeline.run(recipe, {"frames"}, session.job()).get<FramesProduct>("frames");
-  const ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
+  ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
   if (!input.baked.final()) logWarning(fmt::format("transfer is a preview, {} of {}", input.baked.level, input.baked.levels));
   nlohmann::json written;
+  if (options.errors) input.errors = estimate(session, input);
   const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
     session.say(fmt::format("wrote {} files to {}", files.size(), where));
     written[kind] = {{"folder", where}, {"files", files}};
@@ -48,6 +63,7 @@ void addExport(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("export", "Write plain files with a manifest.json: numpy arrays, EXR, glTF");
   command->add_option("PROJECT", options->project, "Baked project (.prt)")->required();
   command->add_option("--npy", options->npy, "Folder for .npy arrays: geometry, transfer, light");
+  command->add_flag("--error-estimate", options->errors, "Estimate where the bake is wrong and add it to --npy; takes about as long as the bake");
   command->add_option("--exr", options->exr, "Folder for .exr pictures: the light, and a picture of each camera");
   command->add_option("--gltf", options->gltf, "Folder for a .glb with the current light baked into vertex colours");
   command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")->check(finite())->check(CLI::Range(-30.0, 30.0))->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include "libprt/light/light_rig.h"
 #include "libprt/project/relight.h"
+#include "libprt/transport/error_map.h"
 
 #include <filesystem>
 #include <span>
@@ -19,6 +20,7 @@ struct ExportInput {
   BakedScene baked;
   std::shared_ptr<const FramesProduct> frames;
   LightRig lights;  ///< the light that pictures and vertex colours show
+  std::shared_ptr<const ErrorMap> errors = nullptr;  ///< written by exportNpy() when given
 };
 
 /// Files that were written, relative to the folder.
@@ -33,6 +35,7 @@ using ExportedFiles = std::vector<std::string>;
 ///   response [O,512,n,n]: where something is glossy and the form can show it, GlossyResponse as a table,
 ///   view angle, lobe, band; zeros for objects that are not (docs/handover.md)
 ///   light [k,3]: coefficients of the current lights
+///   error_estimate [V,3], when there is one: Monte Carlo, interpolation, truncation (transport/error_map.h)
 /// Throws ResourceError when the expanded matrices do not fit in memory, FileError when it cannot write.
 ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job);
 

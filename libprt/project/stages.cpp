@@ -4,6 +4,7 @@
 #include "libprt/core/log.h"
 #include "libprt/mesh/generate.h"
 #include "libprt/mesh/repair.h"
+#include "libprt/project/errors.h"
 #include "libprt/project/products.h"
 
 #include <nlohmann/json.hpp>
@@ -27,7 +28,8 @@ std::string directForm(const Recipe& recipe);
 std::vector<Stage> makeStages() {
   return {
       {.name = "mesh",
-       .makes = "the repaired mesh of each object",
+       .makes = "the repaired mesh of each object, and where its file was at fault",
+       .version = 2,
        .reads = {"objects[].mesh"},
        .make = makeMeshes,
        .load = MeshProduct::load},
@@ -76,7 +78,8 @@ std::vector<Stage> makeStages() {
 }
 
 /// One object's mesh, built in or from its file.
-std::shared_ptr<const TriMesh> meshOf(const MeshRecipe& mesh, StageRun& run, std::string& report) {
+std::shared_ptr<const TriMesh> meshOf(const MeshRecipe& mesh, StageRun& run, std::string& report,
+                                      std::vector<DefectLine>& defects) {
   if (isBuiltin(mesh.path)) {
     const std::string name = mesh.path.substr(mesh.path.find(':') + 1);
     return std::make_shared<TriMesh>(makeBuiltinMesh(name, mesh.detail, std::uint32_t(mesh.seed)));
@@ -91,6 +94,8 @@ std::shared_ptr<const TriMesh> meshOf(const MeshRecipe& mesh, StageRun& run, std
   auto loaded = std::make_shared<TriMesh>(loadMesh(run.file(mesh.path), options, run.job(), &repaired));
   nlohmann::json json = toJson(repaired);
   json["text"] = toText(repaired);
+  json["facts"] = factsText(repaired.after);
+  defects = defectLines(repaired);
   report = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return loaded;
 }
@@ -100,7 +105,8 @@ ProductPtr makeMeshes(StageRun& run) {
   for (const ObjectRecipe& object : run.recipe().objects) {
     run.job().checkCancelled();
     std::string& report = product->reports.emplace_back("{}");
-    product->meshes.push_back(meshOf(object.mesh, run, report));
+    std::vector<DefectLine>& defects = product->defects.emplace_back();
+    product->meshes.push_back(meshOf(object.mesh, run, report, defects));
   }
   return product;
 }
@@ -129,35 +135,11 @@ ProductPtr makeRays(StageRun& run) {
   return std::make_shared<RaysProduct>(*run.input<SceneProduct>("scene")->scene);
 }
 
-TransferForm formOf(TransferKind kind) {
-  switch (kind) {
-    case TransferKind::None: return TransferForm::None;
-    case TransferKind::Visibility: return TransferForm::Visibility;
-    case TransferKind::Matrix: return TransferForm::Matrix;
-    default: return TransferForm::Diffuse;
-  }
-}
-
-TransferSettings settingsOf(const Recipe& recipe) {
-  const TransferRecipe& t = recipe.transfer;
-  TransferSettings settings;
-  settings.form = formOf(t.kind);
-  settings.bands = t.bands;
-  settings.rays = t.rays;
-  settings.bounces = t.bounces;
-  settings.shadows = t.shadows;
-  settings.stopThreshold = t.threshold;
-  settings.storage = t.storage == TransferStorage::Half ? DType::f16 : DType::f32;
-  settings.seed = t.seed;
-  check(settings);
-  return settings;
-}
-
 /// What the direct product must hold; all that it has to know about materials.
 std::string directForm(const Recipe& recipe) {
-  const TransferForm form = formOf(recipe.transfer.kind);
-  if (form == TransferForm::None) return "nothing";
-  return directSettings(settingsOf(recipe), form).visibility ? "visibility" : "diffuse";
+  const TransferSettings settings = transferSettings(recipe);
+  if (settings.form == TransferForm::None) return "nothing";
+  return directSettings(settings, *settings.form).visibility ? "visibility" : "diffuse";
 }
 
 constexpr int kTilesBetweenRests = 16;  // however short the time between checkpoints, work gets done
@@ -176,7 +158,7 @@ void restore(DirectBake& bake, const ProductData& saved, int rays) {
 }
 
 ProductPtr makeDirect(StageRun& run) {
-  const TransferSettings settings = settingsOf(run.recipe());
+  const TransferSettings settings = transferSettings(run.recipe());
   if (settings.form == TransferForm::None) return std::make_shared<DirectProduct>();
   DirectBake bake(run.input<SceneProduct>("scene")->scene, run.input<RaysProduct>("rays")->rays,
                   run.input<SamplesProduct>("samples")->samples, directSettings(settings, *settings.form));
@@ -200,7 +182,7 @@ ProductPtr makeDirect(StageRun& run) {
 }
 
 ProductPtr makeTransfer(StageRun& run) {
-  const TransferSettings settings = settingsOf(run.recipe());
+  const TransferSettings settings = transferSettings(run.recipe());
   const Scene scene = withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe());
   std::map<std::string, Array> state;  // after the last bounce
   const auto keep = [&] { run.keepCheckpoint([&] { return ProductData{"{}", state}; }); };
@@ -225,7 +207,7 @@ ProductPtr makeFloor(StageRun& run) {
   const auto scene = std::make_shared<const Scene>(withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe()));
   return std::make_shared<FloorProduct>(measureInterpolationFloor(
       scene, run.input<RaysProduct>("rays")->rays, *run.input<SamplesProduct>("samples")->samples,
-      run.input<TransferProduct>("transfer")->transfer, settingsOf(run.recipe()), {}, run.job()));
+      run.input<TransferProduct>("transfer")->transfer, transferSettings(run.recipe()), {}, run.job()));
 }
 
 }  // namespace

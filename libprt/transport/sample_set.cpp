@@ -191,6 +191,22 @@ void numberBacks(SampleSet& set, const Scene& scene) {
   resize(set, next);
 }
 
+/// Makes sample i a random point of a triangle, on its front.
+void setInside(SampleSet& set, std::size_t i, const TriMesh& mesh, std::size_t t, std::uint64_t seed, float sceneSize) {
+  const float root = std::sqrt(hashUniform(seed, i, 1)), turn = hashUniform(seed, i, 2);
+  const Vec2 b(root * (1 - turn), root * turn);
+  const UVec3& corner = mesh.triangles[t];
+  const float b0 = 1 - b.x - b.y;
+  const Vec3 p = b0 * mesh.positions[corner.x] + b.x * mesh.positions[corner.y] + b.y * mesh.positions[corner.z];
+  const Vec3 n = b0 * mesh.normals[corner.x] + b.x * mesh.normals[corner.y] + b.y * mesh.normals[corner.z];
+  const Vec3 face = Vec3(normalize(DVec3(mesh.areaNormal(t))));
+  set.geometricNormal[i] = face;
+  set.shadingNormal[i] = length(n) > 1e-6f ? normalize(n) : face;
+  set.origin[i] = offsetOrigin(p, face, sceneSize);
+  set.triangle[i] = std::uint32_t(t);
+  set.barycentric[i] = b;
+}
+
 }  // namespace
 
 SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> indices) {
@@ -236,6 +252,19 @@ SampleSet samplesAtVertices(const Scene& scene) {
   return set;
 }
 
+SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint64_t seed) {
+  SampleSet set;
+  resize(set, triangles.size());
+  const float size = scene.mesh.bounds().diagonal();
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (triangles[i] >= scene.mesh.triangleCount())
+      throw ValueError("there is no triangle " + std::to_string(triangles[i]), "samples",
+                       "choose below " + std::to_string(scene.mesh.triangleCount()));
+    setInside(set, i, scene.mesh, triangles[i], seed, size);
+  }
+  return set;
+}
+
 SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t seed) {
   const TriMesh& mesh = scene.mesh;
   std::vector<double> area(mesh.triangleCount());  // up to and including each triangle
@@ -249,18 +278,7 @@ SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t 
   for (std::size_t i = 0; i < count; ++i) {
     const double at = std::min((double(i) + hashUniform(seed, i, 0)) / double(count) * total, std::nextafter(total, 0.0));
     const auto t = std::size_t(std::upper_bound(area.begin(), area.end(), at) - area.begin());
-    const float root = std::sqrt(hashUniform(seed, i, 1)), turn = hashUniform(seed, i, 2);
-    const Vec2 b(root * (1 - turn), root * turn);
-    const UVec3& corner = mesh.triangles[t];
-    const float b0 = 1 - b.x - b.y;
-    const Vec3 p = b0 * mesh.positions[corner.x] + b.x * mesh.positions[corner.y] + b.y * mesh.positions[corner.z];
-    const Vec3 n = b0 * mesh.normals[corner.x] + b.x * mesh.normals[corner.y] + b.y * mesh.normals[corner.z];
-    const Vec3 face = Vec3(normalize(DVec3(mesh.areaNormal(t))));
-    set.geometricNormal[i] = face;
-    set.shadingNormal[i] = length(n) > 1e-6f ? normalize(n) : face;
-    set.origin[i] = offsetOrigin(p, face, size);
-    set.triangle[i] = std::uint32_t(t);
-    set.barycentric[i] = b;
+    setInside(set, i, mesh, t, seed, size);
   }
   return set;
 }

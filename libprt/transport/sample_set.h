@@ -54,4 +54,8 @@ SampleSet samplesAtVertices(const Scene& scene);
 /// interpolated one. Front sides only.
 SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t seed);
 
+/// One random point in each of the triangles, which must have area; as samplesOnSurface() else. Throws
+/// ValueError when an index is out of range.
+SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint64_t seed);
+
 }  // namespace prt
