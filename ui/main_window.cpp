@@ -6,6 +6,7 @@
 #include "ui/docks/material_dock.h"
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
+#include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
 #include "ui/viewport/light_handles.h"
 #include "ui/viewport/viewport.h"
@@ -220,6 +221,8 @@ void MainWindow::makeViewMenu() {
   handles->setCheckable(true);
   handles->setChecked(lightHandles_->enabled());
   handles->setObjectName(QStringLiteral("lightHandles"));
+  menu->addSeparator();
+  menu->addAction(tr("Next &error overlay"), QKeySequence(Qt::Key_E), this, [this] { session_.errors().cycle(); });
   menu->addSeparator();
   for (QDockWidget* dock : docks_) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();

@@ -1,6 +1,7 @@
 // prt-studio: opens what it is given, or the built-in default scene.
 
 #include "ui/main_window.h"
+#include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
 #include "ui/screenshot.h"
 #include "ui/viewport/gl_canvas.h"
@@ -20,6 +21,7 @@ struct Options {
   bool resetUi = false;
   QString theme;  // empty: as it was last time
   prt::ui::ScreenshotOptions screenshot;
+  prt::ui::ErrorShown errors = prt::ui::ErrorShown::Off;
   QSize size{1440, 900};
 };
 
@@ -42,6 +44,9 @@ Options parse(const QApplication& application) {
         QStringLiteral("dock that the picture shows in front: scene, light, jobs ..."),
         QStringLiteral("NAME")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
+        QStringLiteral("NAME")},
+       {QStringLiteral("errors"),
+        QStringLiteral("lay an error over the surface: total, noise, interpolation or truncation"),
         QStringLiteral("NAME")},
        {QStringLiteral("theme"), QStringLiteral("dark or light; kept when chosen from the menu"),
         QStringLiteral("NAME")},
@@ -66,6 +71,12 @@ Options parse(const QApplication& application) {
   options.theme = parser.value(QStringLiteral("theme"));
   if (parser.isSet(QStringLiteral("theme")) && !prt::ui::themeNamed(options.theme))
     wrong(QStringLiteral("--theme takes dark or light"));
+  if (parser.isSet(QStringLiteral("errors"))) {
+    const QStringList names{QStringLiteral("total"), QStringLiteral("noise"), QStringLiteral("interpolation"), QStringLiteral("truncation")};
+    const auto index = names.indexOf(parser.value(QStringLiteral("errors")));
+    if (index < 0) wrong(QStringLiteral("--errors takes ") + names.join(QStringLiteral(", ")));
+    options.errors = prt::ui::ErrorShown(int(prt::ui::ErrorShown::Total) + int(index));
+  }
   if (parser.isSet(QStringLiteral("size"))) {
     const QStringList sides = parser.value(QStringLiteral("size")).split(u'x');
     bool width = false, height = false;
@@ -111,6 +122,7 @@ int main(int argc, char** argv) {
   if (picture) window.resize(options.size);
   window.show();
   session.open(options.what);
+  session.errors().show(options.errors);
   if (picture) return prt::ui::takeScreenshot(application, window, session, options.screenshot);
   return QApplication::exec();
 }

@@ -204,7 +204,7 @@ TEST_F(ViewportTest, GlAndCpuCanvasShowTheSamePicture) {
   openAndSettle();
   session.view().setBackground(BackgroundMode::Plain);
   const QImage gl = picture();
-  CpuCanvas cpu({session.relighter(), session.view(), [](QPainter&) {}}, nullptr);
+  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), [](QPainter&) {}}, nullptr);
   cpu.resize(window.viewport().size());
   QImage other = cpu.grabPicture();
   ASSERT_EQ(other.size(), gl.size());

@@ -1,13 +1,17 @@
 #pragma once
-// What is in the scene: the objects with their sizes, and what the reader found and mended.
+// What is in the scene: the list of objects, and of the selected one its place, how its mesh is read, and what
+// was wrong with its file. Meshes dropped here are added.
 
 #include "ui/widgets/section.h"
 
-class QLabel;
+class QCheckBox;
+class QToolButton;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace prt::ui {
 
+class MessageBar;
 class Session;
 
 class SceneDock : public DockColumn {
@@ -15,12 +19,24 @@ class SceneDock : public DockColumn {
  public:
   explicit SceneDock(Session& session, QWidget* parent = nullptr);
 
+ protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
  private:
+  QWidget* makeBar();
+  void makeList();
+  void makeActions();
+  void addFromFile();
   void refresh();
+  int current() const;
 
   Session& session_;
+  MessageBar* message_;
   QTreeWidget* objects_;
-  QLabel* report_;
+  QCheckBox* ground_;
+  QToolButton* duplicate_;
+  QToolButton* remove_;
 };
 
 }  // namespace prt::ui

@@ -1,5 +1,6 @@
 #include "ui/docks/transfer_dock.h"
 
+#include "ui/docks/error_section.h"
 #include "ui/model/session.h"
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/property_row.h"
@@ -46,6 +47,7 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
   summary_->setWordWrap(true);
   products->add(summary_);
   add(products);
+  add(new ErrorSection(session_));
 
   connect(button_, &QPushButton::clicked, this, [this] {
     if (session_.bakes().baking())

@@ -82,6 +82,11 @@ const ShRgb& Relighter::light() {
   return light_;
 }
 
+ShRgb Relighter::wholeLight() const {
+  constexpr int kBandsWithoutMap = 10;
+  return projectLights(rig_, environmentCoefficients_.c.empty() ? ShRgb(kBandsWithoutMap) : environmentCoefficients_);
+}
+
 const SurfaceLight& Relighter::surface() {
   apply();
   return surface_;

@@ -46,6 +46,9 @@ class Relighter : public QObject {
 
   /// Coefficients of all lights, bands() bands.
   const ShRgb& light();
+  /// All lights as they are, neither cut to bands() nor windowed: in as many bands as the environment is known in.
+  ShRgb wholeLight() const;
+  const MethodRecipe& method() const { return method_; }
   /// The light at the samples of the scene, which must be there.
   const SurfaceLight& surface();
 

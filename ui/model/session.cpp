@@ -7,7 +7,10 @@
 #include "libprt/project/lights.h"
 #include "libprt/project/products.h"
 #include "libprt/project/scenes.h"
+#include "ui/model/defect_view.h"
+#include "ui/model/error_estimate.h"
 #include "ui/model/expression.h"
+#include "ui/model/scene_editor.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -49,7 +52,9 @@ struct Session::Opened {
 };
 
 Session::Session(QObject* parent)
-    : QObject(parent), bakes_(jobs_), environments_(std::make_shared<EnvironmentCache>()) {
+    : QObject(parent), bakes_(jobs_), environments_(std::make_shared<EnvironmentCache>()),
+      sceneEditor_(std::make_unique<SceneEditor>(*this)), defects_(std::make_unique<DefectView>(*this)),
+      errors_(std::make_unique<ErrorEstimate>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);
   connect(&bakes_, &BakeController::productArrived, this, &Session::take);
@@ -251,6 +256,7 @@ void Session::finishSky() {
 // ---- what follows from an edit ----
 
 void Session::follow() {
+  if (selectedObject_ >= int(document_.recipe().objects.size())) selectObject(int(document_.recipe().objects.size()) - 1);
   applyLights();
   QStringList environments;
   for (const LightRecipe& light : document_.recipe().lights)
@@ -272,9 +278,10 @@ void Session::applyMaterials() {
 
 void Session::take(const QString& stage, const ProductState& state) {
   if (stage == u"mesh") {
-    const auto meshes = std::dynamic_pointer_cast<const MeshProduct>(state.product);
-    meshReports_.clear();
-    for (std::size_t i = 0; i < meshes->meshes.size(); ++i) meshReports_ << QString::fromStdString(meshes->repairText(i));
+    meshes_ = std::dynamic_pointer_cast<const MeshProduct>(state.product);
+    meshRecipes_.clear();
+    for (const ObjectRecipe& object : document_.recipe().objects) meshRecipes_.push_back(object.mesh);
+    Q_EMIT meshesChanged();
   } else if (stage == u"scene") {
     relighter_.setScene(std::dynamic_pointer_cast<const SceneProduct>(state.product)->scene);
     applyMaterials();
@@ -318,6 +325,7 @@ PictureStatus Session::status() const {
   status.rays = transfer->raysPerSample;
   status.raysWanted = transfer->raysWanted;
   status.bounces = transfer->bounces;
+  if (errors_->complete()) status.estimatedError = errors_->map()->totalRms();
   return status;
 }
 

@@ -11,6 +11,7 @@
 #include "ui/model/probe_library.h"
 #include "ui/model/relighter.h"
 #include "ui/model/scene_rays.h"
+#include "ui/model/surface_layers.h"
 #include "ui/model/view_state.h"
 
 #include <QObject>
@@ -20,7 +21,15 @@
 #include <memory>
 #include <optional>
 
+namespace prt {
+struct MeshProduct;
+}
+
 namespace prt::ui {
+
+class DefectView;
+class ErrorEstimate;
+class SceneEditor;
 
 /// What the picture on screen is made with.
 struct PictureStatus {
@@ -29,11 +38,11 @@ struct PictureStatus {
   int level = 0, levels = 0;  ///< passes of the transfer that is drawn; level == levels: final
   int rays = 0, raysWanted = 0;
   int bounces = 0;
-  std::optional<double> estimatedError;  ///< relative; of the interpolation between samples
+  std::optional<double> estimatedError;  ///< relative, of irradiance; once it was estimated
 };
 
 /// Where a message belongs, so that it appears there.
-enum class Place { Viewport, Light, Material, Transfer };
+enum class Place { Viewport, Light, Material, Transfer, Scene };
 
 class Session : public QObject {
   Q_OBJECT
@@ -50,6 +59,10 @@ class Session : public QObject {
   Relighter& relighter() { return relighter_; }
   BakeController& bakes() { return bakes_; }
   Log& log() { return log_; }
+  SurfaceLayers& layers() { return layers_; }
+  SceneEditor& sceneEditor() { return *sceneEditor_; }
+  DefectView& defects() { return *defects_; }
+  ErrorEstimate& errors() { return *errors_; }
 
   /// Opens by kind: a project (.prt), a recipe (.json), a mesh, an environment (.hdr, .exr, .png), or
   /// "scene:NAME". The document changes only once the file has been read; until then, and when it cannot be,
@@ -81,8 +94,10 @@ class Session : public QObject {
   void selectObject(int index);
 
   PictureStatus status() const;
-  /// What the mesh reader found and mended, one line per object; empty until a mesh was read.
-  const QStringList& meshReports() const { return meshReports_; }
+  /// The meshes as they were last read; null until then.
+  const std::shared_ptr<const MeshProduct>& meshes() const { return meshes_; }
+  /// What each of them was read from.
+  const std::vector<MeshRecipe>& meshRecipes() const { return meshRecipes_; }
   /// What is stored for the surface, in words: form, functions, bytes.
   QString transferSummary() const;
   Box3 bounds() const;
@@ -94,6 +109,7 @@ class Session : public QObject {
  Q_SIGNALS:
   void statusChanged();
   void selectionChanged(int object);
+  void meshesChanged();
   void message(prt::ui::Severity severity, const QString& text, prt::ui::Place place);
 
  private:
@@ -129,9 +145,13 @@ class Session : public QObject {
   std::string environmentShown_;  // key of the map that is loaded or on its way
   bool environmentExact_ = true;
   std::string skyJobKey_;  // of the exact sky that is on its way
-  QStringList meshReports_;
+  std::shared_ptr<const MeshProduct> meshes_;
+  std::vector<MeshRecipe> meshRecipes_;
   int level_ = 0, levels_ = 0;
-  std::optional<double> estimatedError_;
+  SurfaceLayers layers_;
+  std::unique_ptr<SceneEditor> sceneEditor_;
+  std::unique_ptr<DefectView> defects_;
+  std::unique_ptr<ErrorEstimate> errors_;
 };
 
 }  // namespace prt::ui

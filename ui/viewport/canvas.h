@@ -3,6 +3,7 @@
 // draws; mouse and keys go to the viewport around it.
 
 #include "ui/model/relighter.h"
+#include "ui/model/surface_layers.h"
 #include "ui/model/view_state.h"
 
 #include <QWidget>
@@ -15,8 +16,18 @@ namespace prt::ui {
 struct CanvasContext {
   Relighter& relighter;
   const ViewState& view;
+  const SurfaceLayers& layers;
   std::function<void(QPainter&)> paintOverlay;  ///< drawn over every frame, in logical pixels
 };
+
+/// The overlay's picture for a canvas of this size in logical pixels.
+inline OverlayPicture overlayPicture(const Camera& camera, const QSize& size, double pixelRatio, bool interacting) {
+  return {.camera = camera,
+          .width = std::max(1, qRound(size.width() * pixelRatio)),
+          .height = std::max(1, qRound(size.height() * pixelRatio)),
+          .grid = interacting ? 1 : 2,
+          .pixelScale = float(pixelRatio)};
+}
 
 class Canvas {
  public:

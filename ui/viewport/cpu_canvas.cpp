@@ -62,9 +62,26 @@ QImage CpuCanvas::draw() {
                           .light = lit.light(),
                           .background = behind ? &lit.rig() : nullptr};
   Job patient;
-  const Image radiance =
-      prt::render(input, context_.view.camera(), w, h, interacting_ ? 1 : kSmoothGrid, patient);
-  return toQImage(toDisplay(radiance, context_.view.tone()));
+  const Image radiance = prt::render(input, context_.view.camera(), w, h, interacting_ ? 1 : kSmoothGrid, patient);
+  Image shown = toDisplay(radiance, context_.view.tone());
+  layOver(shown, scale);
+  return toQImage(shown);
+}
+
+void CpuCanvas::layOver(Image& picture, double scale) const {
+  const SurfaceLayers& layers = context_.layers;
+  const bool fits = layers.values().size() == scene_.mesh.vertexCount();
+  if (layers.marks().empty() && (layers.values().empty() || !fits)) return;
+  OverlayPicture over = overlayPicture(context_.view.camera(), size(), scale, interacting_);
+  over.width = picture.width, over.height = picture.height;
+  Job patient;
+  const Image layer = drawSurfaceOverlay(scene_.mesh, fits ? std::span<const float>(layers.values()) : std::span<const float>(),
+                                         layers.marks(), over, patient);
+  for (std::size_t i = 0; i < picture.pixels(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      float& value = picture.data[std::size_t(picture.channels) * i + c];
+      value = layer.data[4 * i + c] + (1 - layer.data[4 * i + 3]) * value;
+    }
 }
 
 void CpuCanvas::paintEvent(QPaintEvent*) {

@@ -28,6 +28,7 @@ class CpuCanvas : public QWidget, public Canvas {
  private:
   void followScene();
   QImage draw();
+  void layOver(Image& picture, double scale) const;
 
   CanvasContext context_;
   bool interacting_ = false;

@@ -2,6 +2,7 @@
 
 #include "libprt/gl/headless_context.h"
 #include "libprt/gl/scene_renderer.h"
+#include "libprt/gl/surface_overlay.h"
 
 #include <QElapsedTimer>
 #include <QOffscreenSurface>
@@ -98,6 +99,7 @@ void GlCanvas::release() {
   if (!renderer_) return;
   makeCurrent();
   renderer_.reset();
+  layers_.reset();
   doneCurrent();
 }
 
@@ -122,6 +124,7 @@ void GlCanvas::paintGL() {
       uploadChanges();
       drawScene();
     }
+    drawLayers();
     f->glFinish();  // else the time would be that of handing the work over
     const double milliseconds = timer.nsecsElapsed() * 1e-6;
     if (pass_ == 0 && !finished_) milliseconds_ = milliseconds;
@@ -185,6 +188,32 @@ void GlCanvas::drawScene() {
   picture.smoothEnvironment = true;
   picture.tone = context_.view.tone();
   renderer_->draw(picture, defaultFramebufferObject());
+}
+
+// False colour and marks over the picture, with a depth pass of their own.
+void GlCanvas::drawLayers() {
+  const Relighter& lit = context_.relighter;
+  const SurfaceLayers& over = context_.layers;
+  if (over.empty() || !lit.scene()) return;
+  if (!layers_) {
+    layers_ = std::make_unique<gl::SurfaceOverlay>();
+    layersScene_ = layersValues_ = layersMarks_ = 0;
+  }
+  if (layersScene_ != lit.sceneVersion()) {
+    layers_->setMesh(lit.scene()->mesh);
+    layersScene_ = lit.sceneVersion();
+    layersValues_ = 0;
+  }
+  if (layersValues_ != over.valuesVersion()) {
+    const bool fits = over.values().size() == lit.scene()->mesh.vertexCount();
+    layers_->setValues(fits ? std::span<const float>(over.values()) : std::span<const float>());
+    layersValues_ = over.valuesVersion();
+  }
+  if (layersMarks_ != over.marksVersion()) {
+    layers_->setMarks(over.marks());
+    layersMarks_ = over.marksVersion();
+  }
+  layers_->draw(overlayPicture(context_.view.camera(), size(), devicePixelRatioF(), interacting_), defaultFramebufferObject());
 }
 
 QImage GlCanvas::grabPicture() {

@@ -9,6 +9,7 @@
 
 namespace prt::gl {
 class SceneRenderer;
+class SurfaceOverlay;
 }
 
 namespace prt::ui {
@@ -46,10 +47,12 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   void release();
   void uploadChanges();
   void drawScene();
+  void drawLayers();
   void goOn(double milliseconds);
 
   CanvasContext context_;
   std::unique_ptr<gl::SceneRenderer> renderer_;
+  std::unique_ptr<gl::SurfaceOverlay> layers_;  // made when there is something to lay over
   bool interacting_ = false;
   bool broken_ = false;
   double milliseconds_ = 0;
@@ -60,6 +63,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   bool finished_ = false;  // the last pass since the last change is on the screen
   QString description_;
   quint64 scene_ = 0, light_ = 0, environment_ = 0, materials_ = 0;
+  quint64 layersScene_ = 0, layersValues_ = 0, layersMarks_ = 0;
 };
 
 }  // namespace prt::ui

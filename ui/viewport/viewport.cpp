@@ -1,7 +1,9 @@
 #include "ui/viewport/viewport.h"
 
 #include "ui/model/session.h"
+#include "ui/model/error_estimate.h"
 #include "ui/viewport/cpu_canvas.h"
+#include "ui/viewport/error_legend.h"
 #include "ui/viewport/gl_canvas.h"
 #include "ui/viewport/manipulator.h"
 #include "ui/viewport/overlay.h"
@@ -38,12 +40,15 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
   connect(&session_.relighter(), &Relighter::changed, this, &Viewport::refresh);
   connect(&session_.view(), &ViewState::changed, this, &Viewport::refresh);
   connect(&session_, &Session::statusChanged, this, &Viewport::refresh);
+  connect(&session_.layers(), &SurfaceLayers::changed, this, &Viewport::refresh);
+  connect(&session_.errors(), &ErrorEstimate::changed, this, &Viewport::refresh);
 }
 
 void Viewport::chooseCanvas() {
   if (!GlCanvas::available()) return useCpu(tr("this machine has no OpenGL 4.5"));
   auto* canvas =
-      new GlCanvas({session_.relighter(), session_.view(), [this](QPainter& p) { paintOver(p); }}, this);
+      new GlCanvas({session_.relighter(), session_.view(), session_.layers(),
+                   [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
   connect(
       canvas, &GlCanvas::failed, this, [this](const QString& message) { useCpu(message); },
@@ -53,7 +58,8 @@ void Viewport::chooseCanvas() {
 void Viewport::useCpu(const QString& why) {
   if (canvas_) canvas_->widget()->deleteLater();
   auto* canvas =
-      new CpuCanvas({session_.relighter(), session_.view(), [this](QPainter& p) { paintOver(p); }}, this);
+      new CpuCanvas({session_.relighter(), session_.view(), session_.layers(),
+                   [this](QPainter& p) { paintOver(p); }}, this);
   canvas_ = canvas;
   canvas->setGeometry(rect());
   canvas->show();
@@ -175,6 +181,7 @@ void Viewport::paintOver(QPainter& painter) {
     for (Manipulator* each : manipulators_)
       if (each->enabled()) each->paint(painter, view);
   paintOverlay(painter, size(), session_, pictureMode_ ? nullptr : canvas_);
+  paintErrorLegend(painter, size(), session_);
 }
 
 bool Viewport::pressManipulator(QMouseEvent* event) {

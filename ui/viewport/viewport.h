@@ -59,10 +59,10 @@ class Viewport : public QWidget {
   enum class Drag { None, Orbit, Pan, TurnLight };
 
   void chooseCanvas();
+  void paintOver(QPainter& painter);
   void useCpu(const QString& why);
   Drag dragOf(Qt::MouseButton button, Qt::KeyboardModifiers modifiers) const;
   void endDrag();
-  void paintOver(QPainter& painter);
   bool pressManipulator(QMouseEvent* event);
   void hoverManipulators(std::optional<QPointF> at);
   void letGo(bool keep, const QPointF& at = {});

@@ -131,6 +131,11 @@ void NumberField::paintEvent(QPaintEvent*) {
   }
 
   QRectF area = box.adjusted(6, 0, -6, -1);
+  if (!format_.prefix.isEmpty()) {
+    painter.setPen(t.muted);
+    painter.drawText(area, Qt::AlignVCenter | Qt::AlignLeft, format_.prefix);
+    area.setLeft(area.left() + fontMetrics().horizontalAdvance(format_.prefix) + 2);
+  }
   if (!format_.unit.isEmpty()) {
     painter.setPen(t.muted);
     painter.drawText(area, Qt::AlignVCenter | Qt::AlignRight, format_.unit);

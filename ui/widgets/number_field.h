@@ -19,6 +19,7 @@ struct NumberFormat {
   bool logarithmic = false;  ///< equal drags multiply by equal factors; needs low > 0
   QString unit;              ///< shown behind the number
   double step = 0;           ///< of wheel and arrow keys; 0 = chosen from the range
+  QString prefix = {};       ///< shown before the number, at the left
 };
 
 class NumberField : public QWidget {

@@ -5,6 +5,7 @@
 #include "ui/widgets/color_field.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
+#include "ui/widgets/vector_field.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +14,7 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QContextMenuEvent>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -100,15 +101,23 @@ PropertyRow::PropertyRow(Document& document, const QString& path, const QString&
   reset_->setSizePolicy(keepsPlace);
   connect(reset_, &QToolButton::clicked, this, &PropertyRow::reset);
 
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
-  row->setSpacing(kGrid);
-  row->addWidget(label_);
-  row->addWidget(editor_, 1);
-  row->addWidget(reset_);
-  setFixedHeight(kRowHeight);
+  arrange();
   connect(&document_, &Document::recipeChanged, this, &PropertyRow::refresh);
   refresh();
+}
+
+// Label, field, reset in a row; the three fields of a vector need a row of their own.
+void PropertyRow::arrange() {
+  const bool vector = parameter_.type == ParameterType::Vector;
+  auto* grid = new QGridLayout(this);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(kGrid);
+  grid->setVerticalSpacing(0);
+  grid->addWidget(label_, 0, 0);
+  grid->addWidget(editor_, vector ? 1 : 0, vector ? 0 : 1, 1, vector ? 3 : 1);
+  grid->addWidget(reset_, 0, 2, Qt::AlignCenter);
+  grid->setColumnStretch(1, 1);
+  setFixedHeight(vector ? 2 * kRowHeight - 2 : kRowHeight);
 }
 
 QString PropertyRow::valueText() const {
@@ -158,6 +167,8 @@ QWidget* PropertyRow::makeEditor() {
       return makeChoice();
     case ParameterType::Boolean:
       return makeToggle();
+    case ParameterType::Vector:
+      return makeVector();
     default:
       return makeText();
   }
@@ -214,6 +225,21 @@ QWidget* PropertyRow::makeToggle() {
           [this](bool on) { apply(on ? QStringLiteral("true") : QStringLiteral("false")); });
   show_ = [this, box] { box->setChecked(valueText() == u"true"); };
   return box;
+}
+
+QWidget* PropertyRow::makeVector() {
+  NumberFormat format = formatOf(parameter_, title_);
+  format.unit = parameter_.unit == "degrees" ? QStringLiteral("\u00b0") : QString();
+  auto* field = new VectorField(format);
+  connect(field, &VectorField::edited, this, [this](const Vec3& v) { apply(jsonText(nlohmann::json{v.x, v.y, v.z})); });
+  connect(field, &VectorField::gestureBegan, this, [this] { document_.beginGesture(title_); });
+  connect(field, &VectorField::gestureEnded, this, [this] { document_.endGesture(); });
+  connect(field, &VectorField::resetRequested, this, &PropertyRow::reset);
+  show_ = [this, field] {
+    const nlohmann::json value = getByPath(document_.recipe(), path_.toStdString());
+    field->setValue({value[0].get<float>(), value[1].get<float>(), value[2].get<float>()});
+  };
+  return field;
 }
 
 QWidget* PropertyRow::makeText() {

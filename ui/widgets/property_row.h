@@ -40,7 +40,9 @@ class PropertyRow : public QWidget {
   QWidget* makeColor();
   QWidget* makeChoice();
   QWidget* makeToggle();
+  QWidget* makeVector();
   QWidget* makeText();
+  void arrange();
   void refresh();
   void scrubFromLabel(QEvent* event);
 

@@ -1,0 +1,33 @@
+#pragma once
+// What one object of the scene is: where it stands, and how its mesh is read.
+
+#include "ui/widgets/section.h"
+
+class QPushButton;
+
+namespace prt::ui {
+
+class NumberField;
+class Session;
+
+class ObjectSections : public QWidget {
+  Q_OBJECT
+ public:
+  explicit ObjectSections(Session& session, QWidget* parent = nullptr);
+
+ private:
+  void rebuild();
+  void refresh();
+  QWidget* makeTransform(const QString& base);
+  QWidget* makeMesh(const QString& base);
+
+  Session& session_;
+  QWidget* rows_ = nullptr;
+  NumberField* size_ = nullptr;
+  QPushButton* rest_ = nullptr;
+  QPushButton* centre_ = nullptr;
+  bool builtin_ = false;  // the rows are those of a built-in mesh
+  bool transformOpen_ = true, meshOpen_ = false;
+};
+
+}  // namespace prt::ui
