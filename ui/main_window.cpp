@@ -6,6 +6,7 @@
 #include "ui/docks/material_dock.h"
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
+#include "ui/document_menu.h"
 #include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
 #include "ui/viewport/light_handles.h"
@@ -13,6 +14,7 @@
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/number_field.h"
+#include "ui/widgets/recovery_bar.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/workflow_strip.h"
 #include "ui/window/command_palette.h"
@@ -22,23 +24,28 @@
 
 #include <QActionGroup>
 #include <QApplication>
+#include <QBuffer>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenuBar>
+#include <QPointer>
 #include <QSettings>
 #include <QStatusBar>
 #include <QStatusTipEvent>
 #include <QTimer>
 
 #include <fstream>
+#include <memory>
 
 namespace prt::ui {
 
 namespace {
 
 constexpr int kLayoutVersion = 2;  // raised when the docks change, so that old layouts are not restored
+constexpr int kRecoveryTop = 72;   // below what the corners of the picture say
+constexpr int kRecoveryWidth = 640;
+constexpr int kThumbWidth = 192, kThumbHeight = 120;
 constexpr int kDefaultWidth = 1440, kDefaultHeight = 900;
 
 QString residentMemory() {
@@ -48,14 +55,25 @@ QString residentMemory() {
   return QObject::tr("%1 MB").arg(resident * 4096 / 1'000'000);
 }
 
+QByteArray thumbnailOf(Viewport& viewport) {
+  const QImage picture = viewport.canvas().grabPicture();
+  if (picture.isNull()) return {};
+  QByteArray png;
+  QBuffer buffer(&png);
+  picture.scaled(kThumbWidth, kThumbHeight, Qt::KeepAspectRatio, Qt::SmoothTransformation).save(&buffer, "PNG");
+  return png;
+}
+
 }  // namespace
 
 MainWindow::MainWindow(Session& session, bool freshLayout)
     : session_(session),
+      documents_(new DocumentMenu(session, *this)),
       viewport_(new Viewport(session)),
       lightHandles_(
           new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
       message_(new MessageBar(viewport_)),
+      recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
       layouts_(new Layouts(*this, layoutPlans(), kLayoutVersion)),
       fileLabel_(new QLabel),
@@ -87,6 +105,10 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   });
   connect(&session_.document(), &Document::opened, message_, &QWidget::hide);
   connect(&session_.document(), &Document::stateChanged, this, &MainWindow::refreshTitle);
+  connect(&session_.project(), &ProjectKeeper::linksChanged, this, &MainWindow::showLinks);
+  connect(recovery_, &RecoveryBar::resized, this, &MainWindow::placeMessage);
+  session_.project().autosave().setThumbnail(
+      [view = QPointer(viewport_)] { return view ? thumbnailOf(*view) : QByteArray(); });
   connect(&session_, &Session::statusChanged, strip_, &WorkflowStrip::refresh);
   connect(&session_.relighter(), &Relighter::environmentChanged, strip_, &WorkflowStrip::refresh);
   refreshTitle();
@@ -169,28 +191,11 @@ QList<BindingGroup> MainWindow::bindings() const {
 }
 
 void MainWindow::makeMenus() {
-  makeFileMenu();
+  documents_->fillFile(menuBar()->addMenu(tr("&File")));
   makeEditMenu();
   makeViewMenu();
   makeHelpMenu();
   menuBar()->setCornerWidget(strip_, Qt::TopRightCorner);
-}
-
-void MainWindow::makeFileMenu() {
-  QMenu* menu = menuBar()->addMenu(tr("&File"));
-  menu->addAction(icon(QStringLiteral("document-open")), tr("&Open\u2026"), QKeySequence::Open, this,
-                  &MainWindow::openFile);
-  QMenu* samples = menu->addMenu(tr("S&amples"));
-  for (const QString& name : session_.sampleScenes())
-    samples->addAction(name, this, [this, name] { session_.open(QStringLiteral("scene:") + name); });
-  menu->addSeparator();
-  menu->addAction(icon(QStringLiteral("document-save")), tr("&Save project"), QKeySequence::Save, this,
-                  [this] { saveProject(false); });
-  menu->addAction(icon(QStringLiteral("document-save-as")), tr("Save project &as\u2026"),
-                  QKeySequence::SaveAs, this, [this] { saveProject(true); });
-  menu->addSeparator();
-  menu->addAction(icon(QStringLiteral("application-exit")), tr("&Quit"), QKeySequence::Quit, this,
-                  &QWidget::close);
 }
 
 void MainWindow::makeEditMenu() {
@@ -208,6 +213,7 @@ void MainWindow::makeEditMenu() {
   };
   connect(&session_.document(), &Document::stateChanged, this, refresh);
   refresh();
+  documents_->fillHistory(menu);
 }
 
 void MainWindow::makeViewMenu() {
@@ -337,24 +343,6 @@ bool MainWindow::event(QEvent* event) {
   return true;
 }
 
-void MainWindow::openFile() {
-  const QString file = QFileDialog::getOpenFileName(
-      this, tr("Open"), {},
-      tr("Everything (*.prt *.json *.obj *.ply *.off *.stl *.gltf *.glb *.hdr *.exr *.png);;Projects "
-         "(*.prt);;"
-         "Meshes (*.obj *.ply *.off *.stl *.gltf *.glb);;Environments (*.hdr *.exr *.png);;All files (*)"));
-  if (!file.isEmpty()) session_.open(file);
-}
-
-void MainWindow::saveProject(bool askForName) {
-  QString file = session_.document().path();
-  if (askForName || file.isEmpty())
-    file = QFileDialog::getSaveFileName(this, tr("Save project"), file, tr("Projects (*.prt)"));
-  if (file.isEmpty()) return;
-  if (!file.endsWith(u".prt")) file += QStringLiteral(".prt");
-  session_.save(file);
-}
-
 void MainWindow::refreshTitle() {
   const Document& document = session_.document();
   const QString name = document.title().isEmpty() ? tr("Untitled") : document.title();
@@ -364,6 +352,29 @@ void MainWindow::refreshTitle() {
   fileLabel_->setToolTip(document.path());
 }
 
+void MainWindow::offerRecovery() {
+  recovery_->offer();
+}
+
+// The project is open with what it has; what it lacks is told where the picture is.
+void MainWindow::showLinks() {
+  QStringList missing, changed;
+  for (const LinkedFile& link : session_.project().brokenLinks())
+    (link.state == LinkState::Missing ? missing : changed)
+        << QString::fromStdString(link.file.filename().string());
+  QStringList lines;
+  if (!missing.isEmpty())
+    lines << tr("Missing: %1. The project is open with what it has.").arg(missing.join(QStringLiteral(", ")));
+  if (!changed.isEmpty())
+    lines << tr("Changed since the project was saved: %1. What was made from it is baked again.")
+                 .arg(changed.join(QStringLiteral(", ")));
+  if (lines.isEmpty()) return;
+  session_.log().add(Severity::Warning, lines.join(u' '));
+  message_->show(Severity::Warning, lines.join(u'\n'));
+  if (!missing.isEmpty()) message_->offer(tr("Locate\u2026"), [this] { documents_->relink(); });
+  placeMessage();
+}
+
 // Along the top of the picture, clear of what the corners say.
 void MainWindow::placeMessage() {
   const int width = std::min(560, viewport_->width() - 48);
@@ -371,14 +382,32 @@ void MainWindow::placeMessage() {
   message_->adjustSize();
   message_->move((viewport_->width() - width) / 2, viewport_->height() - message_->height() - 16);
   message_->raise();
+  recovery_->setFixedWidth(std::min(kRecoveryWidth, viewport_->width() - 48));
+  recovery_->adjustSize();
+  recovery_->move((viewport_->width() - recovery_->width()) / 2, kRecoveryTop);
+  recovery_->raise();
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  if (message_->isVisible()) placeMessage();
+  placeMessage();
+}
+
+// Asks when something would be lost; false also while it is saved first, after which the window closes itself.
+bool MainWindow::mayClose() {
+  if (leaving_) return true;
+  const auto inside = std::make_shared<bool>(true);
+  session_.project().leaveThen([this, inside] {
+    leaving_ = true;
+    session_.project().giveUp();
+    if (!*inside) close();
+  });
+  *inside = false;
+  return leaving_;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!mayClose()) return event->ignore();
   QSettings settings;
   settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
   layouts_->save(settings);

@@ -33,6 +33,8 @@ class MainWindow : public QMainWindow {
   Layouts& layouts() { return *layouts_; }
   /// The current mood's docks as they are planned.
   void resetLayout();
+  /// Shows what a crashed studio left, if anything.
+  void offerRecovery();
   /// Shows a dock in front of those it shares a place with. False when there is none of this name.
   bool bringToFront(const QString& dock);
   QStringList dockNames() const;
@@ -51,24 +53,25 @@ class MainWindow : public QMainWindow {
   void makeDocks();
   void makeSheets();
   void makeMenus();
-  void makeFileMenu();
   void makeEditMenu();
   void makeViewMenu();
   void makeLayoutMenu(QMenu& view);
   void makeThemeMenu(QMenu& view);
   void makeHelpMenu();
   void makeStatusBar();
-  void openFile();
-  void saveProject(bool askForName);
   void refreshTitle();
+  void showLinks();
+  bool mayClose();
   void placeMessage();
   void refreshHint();
   void refreshSize();
 
   Session& session_;
+  class DocumentMenu* documents_;
   Viewport* viewport_;
   LightHandles* lightHandles_;
   MessageBar* message_;
+  class RecoveryBar* recovery_;
   class WorkflowStrip* strip_;
   Layouts* layouts_;
   CommandPalette* palette_ = nullptr;
@@ -79,6 +82,7 @@ class MainWindow : public QMainWindow {
   QLabel* hintLabel_;
   QString tip_;  // of the widget under the pointer
   QList<QDockWidget*> docks_;
+  bool leaving_ = false;  // nothing is asked any more
 };
 
 }  // namespace prt::ui

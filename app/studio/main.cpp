@@ -124,5 +124,6 @@ int main(int argc, char** argv) {
   session.open(options.what);
   session.errors().show(options.errors);
   if (picture) return prt::ui::takeScreenshot(application, window, session, options.screenshot);
+  window.offerRecovery();
   return QApplication::exec();
 }

@@ -58,6 +58,9 @@ class Pipeline {
   /// `store` may be null: nothing outlives this object then. Keeps references to store and table.
   Pipeline(ProductStore* store, Options options, const std::vector<Stage>& table = stages());
 
+  /// Where relative paths start from the next run on: for a project that moved.
+  void setFolder(const std::filesystem::path& folder) { options_.folder = folder; }
+
   /// Products of the targets and of everything they were made from, all final. One run at a time per
   /// object. Throws what stages throw; Cancelled leaves checkpoints and previews in the store.
   Products run(const Recipe& recipe, const std::vector<std::string>& targets, Job& job,

@@ -3,8 +3,8 @@
 #include "libprt/core/hash.h"
 #include "libprt/project/project_schema.h"
 
-#include <nlohmann/json.hpp>
 #include <zstd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <exception>
@@ -19,16 +19,22 @@ constexpr int kLevel = 1;  // float data gains little from higher levels
   throw DamagedFile("is damaged: " + what, database.file().string(), "use a backup or bake again");
 }
 
-std::string checksumOf(std::span<const std::byte> bytes) { return hashBytes(bytes).hex(); }
+std::string checksumOf(std::span<const std::byte> bytes) {
+  return hashBytes(bytes).hex();
+}
 
-std::string shapeText(const std::vector<std::int64_t>& shape) { return nlohmann::json(shape).dump(); }
+std::string shapeText(const std::vector<std::int64_t>& shape) {
+  return nlohmann::json(shape).dump();
+}
 
 /// What an array's checksum covers; one line a chunk follows.
 std::string arrayHead(const std::string& name, const std::string& dtype, const std::string& shape) {
   return name + "\n" + dtype + "\n" + shape + "\n";
 }
 
-std::string chunkLine(std::int64_t bytes, const std::string& checksum) { return std::to_string(bytes) + " " + checksum + "\n"; }
+std::string chunkLine(std::int64_t bytes, const std::string& checksum) {
+  return std::to_string(bytes) + " " + checksum + "\n";
+}
 
 /// Bytes of an array of this shape, or -1 when that is not a sensible number.
 std::int64_t byteCount(const std::vector<std::int64_t>& shape, DType dtype) {
@@ -43,7 +49,9 @@ std::int64_t byteCount(const std::vector<std::int64_t>& shape, DType dtype) {
 std::vector<std::byte> compress(std::span<const std::byte> bytes) {
   std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
   const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
-  if (ZSTD_isError(size)) throw ResourceError(std::string("compression failed: ") + ZSTD_getErrorName(size), "", "free some memory");
+  if (ZSTD_isError(size))
+    throw ResourceError(std::string("compression failed: ") + ZSTD_getErrorName(size), "",
+                        "free some memory");
   packed.resize(size);
   return packed;
 }
@@ -56,16 +64,19 @@ ArrayInfo readArrayRow(Database& database, Statement& row) {
   info.checksum = row.text(4);
   const std::string what = "array '" + info.name + "'";
   std::string covered = arrayHead(info.name, dtype, shape);
-  Statement chunks(database, "SELECT number, bytes, checksum, length(data) FROM chunk WHERE array = ? ORDER BY number");
+  Statement chunks(database,
+                   "SELECT number, bytes, checksum, length(data) FROM chunk WHERE array = ? ORDER BY number");
   chunks.bind(id);
   for (std::int64_t number = 0; chunks.step(); ++number) {
     if (chunks.integer(0) != number) damaged(database, what + " lacks a chunk");
-    if (chunks.integer(1) < 0 || chunks.integer(1) > std::int64_t(kChunkBytes)) damaged(database, what + " has a wrong chunk");
+    if (chunks.integer(1) < 0 || chunks.integer(1) > std::int64_t(kChunkBytes))
+      damaged(database, what + " has a wrong chunk");
     info.bytes += chunks.integer(1);
     info.stored += chunks.integer(3);
     covered += chunkLine(chunks.integer(1), chunks.text(2));
   }
-  if (checksumOf(std::as_bytes(std::span(covered))) != info.checksum) damaged(database, what + " has changed");
+  if (checksumOf(std::as_bytes(std::span(covered))) != info.checksum)
+    damaged(database, what + " has changed");
   try {
     info.dtype = dtypeFromString(dtype);
     info.shape = nlohmann::json::parse(shape).get<std::vector<std::int64_t>>();
@@ -80,16 +91,25 @@ ArrayInfo readArrayRow(Database& database, Statement& row) {
 
 std::vector<ProductRow> readProductRows(Database& database) {
   std::vector<ProductRow> rows;
-  Statement products(database, "SELECT id, stage, key, role, level, levels, meta, checksum FROM product ORDER BY stage, key, role");
+  Statement products(
+      database,
+      "SELECT id, stage, key, role, level, levels, meta, checksum FROM product ORDER BY stage, key, role");
   while (products.step()) {
     ProductRow row{products.integer(0), products.text(3), {}};
     ProductInfo& info = row.info;
-    info = {products.text(1), products.text(2), row.role == kCheckpoint, int(products.integer(4)), int(products.integer(5)),
-            products.text(6), {}};
-    Statement arrays(database, "SELECT id, name, dtype, shape, checksum FROM array WHERE product = ? ORDER BY name");
+    info = {products.text(1),
+            products.text(2),
+            row.role == kCheckpoint,
+            int(products.integer(4)),
+            int(products.integer(5)),
+            products.text(6),
+            {}};
+    Statement arrays(database,
+                     "SELECT id, name, dtype, shape, checksum FROM array WHERE product = ? ORDER BY name");
     arrays.bind(row.id);
     while (arrays.step()) info.arrays.push_back(readArrayRow(database, arrays));
-    if (productChecksum(info, row.role) != products.text(7)) damaged(database, "the " + row.role + " of stage " + info.stage + " has changed");
+    if (productChecksum(info, row.role) != products.text(7))
+      damaged(database, "the " + row.role + " of stage " + info.stage + " has changed");
     rows.push_back(std::move(row));
   }
   return rows;
@@ -101,14 +121,19 @@ std::string writeArray(Database& database, std::int64_t product, const std::stri
     throw std::logic_error("array '" + name + "' does not have as many bytes as its shape says");
   const std::string dtype = toString(array.dtype), shape = shapeText(array.shape);
   std::string covered = arrayHead(name, dtype, shape);
-  const std::int64_t id = 1 + database.integer("SELECT max(coalesce((SELECT max(id) FROM array), 0), coalesce((SELECT max(array) FROM chunk), 0))");
+  const std::int64_t id = nextArrayId(database);
   Statement insert(database, "INSERT INTO chunk(array, number, bytes, checksum, data) VALUES(?, ?, ?, ?, ?)");
   const std::span<const std::byte> all(array.bytes);
   for (std::size_t begin = 0, number = 0; begin < all.size(); begin += kChunkBytes, ++number) {
     const auto raw = all.subspan(begin, std::min(kChunkBytes, all.size() - begin));
     const std::vector<std::byte> packed = compress(raw);
     const std::string checksum = checksumOf(packed);
-    insert.bind(id).bind(std::int64_t(number)).bind(std::int64_t(raw.size())).bind(checksum).bind(std::span(packed)).run();
+    insert.bind(id)
+        .bind(std::int64_t(number))
+        .bind(std::int64_t(raw.size()))
+        .bind(checksum)
+        .bind(std::span(packed))
+        .run();
     covered += chunkLine(std::int64_t(raw.size()), checksum);
     uncommitted += packed.size();
     if (uncommitted >= kCommitBytes) {
@@ -118,15 +143,17 @@ std::string writeArray(Database& database, std::int64_t product, const std::stri
     }
   }
   const std::string checksum = checksumOf(std::as_bytes(std::span(covered)));
-  Statement row(database, "INSERT INTO array(id, product, name, dtype, shape, checksum) VALUES(?, ?, ?, ?, ?, ?)");
+  Statement row(database,
+                "INSERT INTO array(id, product, name, dtype, shape, checksum) VALUES(?, ?, ?, ?, ?, ?)");
   row.bind(id).bind(product).bind(name).bind(dtype).bind(shape).bind(checksum).run();
   return checksum;
 }
 
 Array readArray(Database& database, std::int64_t product, const ArrayInfo& info) {
   Array array{info.dtype, info.shape, std::vector<std::byte>(std::size_t(info.bytes))};
-  Statement chunks(database, "SELECT c.bytes, c.checksum, c.data FROM chunk c JOIN array a ON c.array = a.id "
-                             "WHERE a.product = ? AND a.name = ? ORDER BY c.number");
+  Statement chunks(database,
+                   "SELECT c.bytes, c.checksum, c.data FROM chunk c JOIN array a ON c.array = a.id "
+                   "WHERE a.product = ? AND a.name = ? ORDER BY c.number");
   chunks.bind(product).bind(info.name);
   std::size_t at = 0, number = 0;
   for (; chunks.step(); ++number) {
@@ -143,8 +170,22 @@ Array readArray(Database& database, std::int64_t product, const ArrayInfo& info)
   return array;
 }
 
+std::int64_t nextProductId(Database& database) {
+  return 1 + database.integer(
+                 "SELECT max(coalesce((SELECT max(id) FROM product), 0), "
+                 "coalesce((SELECT max(product) FROM array), 0))");
+}
+
+std::int64_t nextArrayId(Database& database) {
+  return 1 + database.integer(
+                 "SELECT max(coalesce((SELECT max(id) FROM array), 0), "
+                 "coalesce((SELECT max(array) FROM chunk), 0))");
+}
+
 void deleteProduct(Database& database, std::int64_t id) {
-  Statement(database, "DELETE FROM chunk WHERE array IN (SELECT id FROM array WHERE product = ?)").bind(id).run();
+  Statement(database, "DELETE FROM chunk WHERE array IN (SELECT id FROM array WHERE product = ?)")
+      .bind(id)
+      .run();
   Statement(database, "DELETE FROM array WHERE product = ?").bind(id).run();
   Statement(database, "DELETE FROM product WHERE id = ?").bind(id).run();
 }

@@ -1,13 +1,10 @@
 #include "libprt/project/project_file.h"
 
+#include "libprt/project/project_disk.h"
 #include "libprt/project/project_schema.h"
 
 #include <nlohmann/json.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -15,14 +12,6 @@ namespace prt {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Opens a database that is ours, or throws.
-std::unique_ptr<Database> openChecked(const fs::path& file, Database::Mode mode) {
-  auto database = std::make_unique<Database>(file, mode);
-  database->execute("PRAGMA cell_size_check = ON");
-  checkSchema(*database);
-  return database;
-}
 
 /// A working copy belongs to one process at a time and is flushed at every commit.
 void claim(Database& database) {
@@ -40,22 +29,6 @@ void removeWork(const fs::path& work) {
   fs::remove(work, ignored);
 }
 
-std::string reason(int error) {
-  return std::error_code(error, std::generic_category()).message();
-}
-
-void syncPath(const fs::path& path, int flags) {
-  const int file = ::open(path.c_str(), flags);
-  const int failed = file < 0 || ::fsync(file) != 0 ? errno : 0;
-  if (file >= 0) ::close(file);
-  if (failed)
-    throw FileError("cannot be flushed to disk: " + reason(failed), path.string(), "check the disk");
-}
-
-fs::path folderOf(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
 void copyFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::copy_file(from, to, error);
@@ -68,8 +41,10 @@ void copyFile(const fs::path& from, const fs::path& to) {
                   "check the space on the disk and the permissions of its folder");
 }
 
-std::string checksumIn(Database& database) {
-  return readProjectRow(database).checksum;
+/// Whether a working copy began from this saved project: one that was being saved names both.
+bool beganFrom(const std::string& bases, const std::string& base) {
+  const auto space = bases.find(' ');
+  return bases.substr(0, space) == base || (space != std::string::npos && bases.substr(space + 1) == base);
 }
 
 }  // namespace
@@ -102,6 +77,7 @@ std::unique_ptr<ProjectFile> ProjectFile::openForWork(const fs::path& file) {
     project->readProject();
   else
     project->beginWork();
+  fs::remove(savingFile(file), error);  // of a process that died while it saved
   return project;
 }
 
@@ -116,11 +92,12 @@ bool ProjectFile::openLeftover(const std::string& base) {
     checkHeader(file);
     checkSchema(*database);
     base_ = readProjectRow(*database).base;
-    if (base_ == base) {
+    if (beganFrom(base_, base)) {
       readProductRows(*database);
       Transaction transaction(*database);
       deleteOrphans(*database);
       transaction.commit();
+      base_ = base;
       work_ = std::move(database);
       return true;
     }
@@ -149,6 +126,26 @@ void ProjectFile::beginWork() {
   transaction.commit();
 }
 
+bool ProjectFile::saved() const {
+  std::lock_guard lock(mutex_);
+  return saved_ != nullptr;
+}
+
+bool ProjectFile::resumed() const {
+  std::lock_guard lock(mutex_);
+  return resumed_;
+}
+
+bool ProjectFile::hasNewWork() const {
+  std::lock_guard lock(mutex_);
+  return work_ && (resumed_ || written_);
+}
+
+Recipe ProjectFile::recipe() const {
+  std::lock_guard lock(mutex_);
+  return recipe_;
+}
+
 Database& ProjectFile::current() {
   if (!work_ && !saved_) throw FileError("can no longer be read", file_.string(), "open it again");
   return work_ ? *work_ : *saved_;
@@ -175,6 +172,7 @@ void ProjectFile::writeProject() {
 }
 
 void ProjectFile::setRecipe(const Recipe& recipe) {
+  std::lock_guard lock(mutex_);
   if (recipe == recipe_ && work_) return;
   Transaction transaction(work());
   recipe_ = recipe;
@@ -183,11 +181,13 @@ void ProjectFile::setRecipe(const Recipe& recipe) {
 }
 
 std::string ProjectFile::sourceHash(const std::string& path) {
+  std::lock_guard lock(mutex_);
   const auto found = sources_.find(path);
   return found == sources_.end() ? "" : found->second;
 }
 
 void ProjectFile::putSourceHash(const std::string& path, const std::string& hash) {
+  std::lock_guard lock(mutex_);
   if (!work_ || sourceHash(path) == hash) return;  // a reader learns nothing new that it must keep
   sources_[path] = hash;
   Transaction transaction(*work_);
@@ -197,6 +197,7 @@ void ProjectFile::putSourceHash(const std::string& path, const std::string& hash
 
 std::unique_ptr<ProductStore::Stored> ProjectFile::read(const std::string& stage, const std::string& key,
                                                         const std::string& role) {
+  std::lock_guard lock(mutex_);
   for (const ProductRow& row : readProductRows(current())) {
     if (row.info.stage != stage || row.info.key != key || row.role != role) continue;
     auto stored = std::make_unique<Stored>();
@@ -212,12 +213,11 @@ std::unique_ptr<ProductStore::Stored> ProjectFile::read(const std::string& stage
 
 void ProjectFile::write(const std::string& stage, const std::string& key, const std::string& role,
                         const Stored& stored) {
+  std::lock_guard lock(mutex_);
   Database& database = work();
   Transaction transaction(database);
   ProductInfo info{stage, key, role == kCheckpoint, stored.level, stored.levels, stored.data.meta, {}};
-  const std::int64_t id = 1 + database.integer(
-                                  "SELECT max(coalesce((SELECT max(id) FROM product), 0), coalesce((SELECT "
-                                  "max(product) FROM array), 0))");
+  const std::int64_t id = nextProductId(database);
   std::size_t uncommitted = 0;
   for (const auto& [name, array] : stored.data.arrays) {
     info.arrays.push_back(
@@ -241,17 +241,6 @@ void ProjectFile::write(const std::string& stage, const std::string& key, const 
   written_ = true;
 }
 
-void ProjectFile::importFrom(ProjectFile& other) {
-  for (const ProductRow& row : readProductRows(other.current())) {
-    const ProductInfo& info = row.info;
-    const auto there = read(info.stage, info.key, row.role);
-    if (!there || there->level < info.level)
-      write(info.stage, info.key, row.role, *other.read(info.stage, info.key, row.role));
-  }
-  for (const auto& [path, hash] : other.sources_)
-    putSourceHash(rebasedPath(path, folderOf(other.file_), folderOf(file_)), hash);
-}
-
 std::unique_ptr<ProductStore::Stored> ProjectFile::find(const std::string& stage, const std::string& key) {
   return read(stage, key, kProduct);
 }
@@ -270,6 +259,7 @@ void ProjectFile::putCheckpoint(const std::string& stage, const std::string& key
 }
 
 void ProjectFile::dropCheckpoint(const std::string& stage, const std::string& key) {
+  std::lock_guard lock(mutex_);
   Database& database = work();
   Transaction transaction(database);
   for (const ProductRow& row : readProductRows(database))
@@ -280,12 +270,14 @@ void ProjectFile::dropCheckpoint(const std::string& stage, const std::string& ke
 }
 
 std::vector<ProductInfo> ProjectFile::contents() {
+  std::lock_guard lock(mutex_);
   std::vector<ProductInfo> all;
   for (ProductRow& row : readProductRows(current())) all.push_back(std::move(row.info));
   return all;
 }
 
 void ProjectFile::keepOnly(const std::set<std::string>& keys) {
+  std::lock_guard lock(mutex_);
   Database& database = work();
   Transaction transaction(database);
   for (const ProductRow& row : readProductRows(database))
@@ -296,23 +288,22 @@ void ProjectFile::keepOnly(const std::set<std::string>& keys) {
 }
 
 void ProjectFile::save() {
+  std::lock_guard lock(mutex_);
   if (!work_) return;
   const fs::path from = work_->file();
   work_.reset();  // the last commit is on disk, the journal is gone
   try {
-    syncPath(from, O_RDONLY);
+    syncFile(from);
     Job job;
     verify(from, job);  // a sound project is never replaced by one that is not
-    if (::rename(from.c_str(), file_.c_str()) != 0)
-      throw FileError("cannot be replaced: " + reason(errno), file_.string(),
-                      "check its permissions and those of its folder");
+    replaceFile(from, file_);
   } catch (...) {
     resumeWork(from);
     throw;
   }
   saved_ = openChecked(file_, Database::Mode::ReadOnly);
   resumed_ = written_ = false;
-  syncPath(folderOf(file_), O_RDONLY | O_DIRECTORY);
+  syncFolderOf(file_);
 }
 
 /// After a save that failed: the working copy is as good as before, so that another save can be tried.
@@ -326,6 +317,7 @@ void ProjectFile::resumeWork(const fs::path& file) {
 }
 
 void ProjectFile::discardWork() {
+  std::lock_guard lock(mutex_);
   if (!work_) return;
   const fs::path file = work_->file();
   work_.reset();
@@ -335,6 +327,7 @@ void ProjectFile::discardWork() {
 }
 
 std::int64_t ProjectFile::bytes() const {
+  std::lock_guard lock(mutex_);
   std::error_code error;
   return std::int64_t(fs::file_size(work_ ? work_->file() : file_, error));
 }

@@ -6,6 +6,8 @@
 // written goes to a working copy beside it, FILE.work, which save() swaps in atomically. A process that
 // dies leaves the saved project as it was; the working copy, brought back to its last commit by SQLite,
 // is where the next bake goes on.
+//
+// Threads. Any thread may call any function: a project can be saved while a bake writes to it.
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
@@ -15,6 +17,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -60,13 +64,13 @@ class ProjectFile : public ProductStore {
   const std::filesystem::path& file() const { return file_; }
   static std::filesystem::path workFile(const std::filesystem::path& file);
   /// Work of an earlier process was found.
-  bool resumed() const { return resumed_; }
+  bool resumed() const;
   /// There is a saved state under the file's own name.
-  bool saved() const { return saved_ != nullptr; }
+  bool saved() const;
   /// The working copy holds products or checkpoints that the saved project does not.
-  bool hasNewWork() const { return work_ && (resumed_ || written_); }
+  bool hasNewWork() const;
 
-  const Recipe& recipe() const { return recipe_; }
+  Recipe recipe() const;
   void setRecipe(const Recipe& recipe);
 
   std::unique_ptr<Stored> find(const std::string& stage, const std::string& key) override;
@@ -79,7 +83,7 @@ class ProjectFile : public ProductStore {
 
   std::vector<ProductInfo> contents();
 
-  /// Takes over what another project has and this one lacks.
+  /// Takes over what another project has and this one lacks, compressed as it is.
   void importFrom(ProjectFile& other);
 
   /// Removes every product and checkpoint whose key is not among these (Pipeline::liveKeys), and gives
@@ -89,6 +93,15 @@ class ProjectFile : public ProductStore {
   /// Makes the working copy the saved project: flushed to disk, verified, then renamed over it. When that
   /// fails the saved project and the working copy are as before, and it can be tried again.
   void save();
+  struct SaveOptions {
+    /// Products and checkpoints to save (Pipeline::liveKeys); absent: all.
+    std::optional<std::set<std::string>> keys = {};
+    int backups = 0;  ///< see project/backups.h
+  };
+  /// Saves while work goes on: writes a complete project beside the file, verifies it and renames it over
+  /// the file. The working copy stays, with everything in it: whoever bakes waits for the copying of rows at
+  /// most. When it fails or is cancelled the saved project is as before.
+  void saveKeepingWork(const Recipe& recipe, const SaveOptions& options, Job& job);
   /// Throws the working copy away.
   void discardWork();
 
@@ -114,14 +127,18 @@ class ProjectFile : public ProductStore {
   void resumeWork(const std::filesystem::path& file);
   void readProject();
   void writeProject();
+  void rewriteProject();
+  std::string writeCopy(const std::filesystem::path& to, const SaveOptions& options, Job& job);
   std::unique_ptr<Stored> read(const std::string& stage, const std::string& key, const std::string& role);
   void write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored);
 
-  std::filesystem::path file_;
+  mutable std::recursive_mutex mutex_;  // guards everything below but file_
+  const std::filesystem::path file_;
   std::unique_ptr<Database> saved_, work_;
   Recipe recipe_;
   std::map<std::string, std::string> sources_;
-  std::string base_;  // checksum of the saved project that the working copy began from
+  // Checksum of the saved project that the working copy began from; while it is being saved, of both.
+  std::string base_;
   bool resumed_ = false, written_ = false;
 };
 

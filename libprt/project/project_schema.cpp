@@ -21,13 +21,16 @@ struct Table {
 
 constexpr std::array<Table, 4> kTables{{
     {"project",
-     "CREATE TABLE project(id INTEGER PRIMARY KEY CHECK(id = 1), program TEXT NOT NULL, recipe TEXT NOT NULL, "
+     "CREATE TABLE project(id INTEGER PRIMARY KEY CHECK(id = 1), program TEXT NOT NULL, recipe TEXT NOT "
+     "NULL, "
      "sources TEXT NOT NULL, base TEXT NOT NULL, checksum TEXT NOT NULL)"},
     {"product",
-     "CREATE TABLE product(id INTEGER PRIMARY KEY, stage TEXT NOT NULL, key TEXT NOT NULL, role TEXT NOT NULL, "
+     "CREATE TABLE product(id INTEGER PRIMARY KEY, stage TEXT NOT NULL, key TEXT NOT NULL, role TEXT NOT "
+     "NULL, "
      "level INTEGER NOT NULL, levels INTEGER NOT NULL, meta TEXT NOT NULL, checksum TEXT NOT NULL)"},
     {"array",
-     "CREATE TABLE array(id INTEGER PRIMARY KEY, product INTEGER NOT NULL, name TEXT NOT NULL, dtype TEXT NOT NULL, "
+     "CREATE TABLE array(id INTEGER PRIMARY KEY, product INTEGER NOT NULL, name TEXT NOT NULL, dtype TEXT "
+     "NOT NULL, "
      "shape TEXT NOT NULL, checksum TEXT NOT NULL)"},
     {"chunk",
      "CREATE TABLE chunk(id INTEGER PRIMARY KEY, array INTEGER NOT NULL, number INTEGER NOT NULL, "
@@ -70,9 +73,11 @@ void checkSchema(Database& database) {
   wanted.insert(wanted.end(), kIndexes.begin(), kIndexes.end());
   std::size_t i = 0;
   bool same = true;
-  for (; rows.step(); ++i) same = same && i < wanted.size() && rows.text(0) == wanted[i].name && rows.text(1) == wanted[i].sql;
+  for (; rows.step(); ++i)
+    same = same && i < wanted.size() && rows.text(0) == wanted[i].name && rows.text(1) == wanted[i].sql;
   if (!same || i != wanted.size())
-    throw DamagedFile("is damaged: its tables are not those of a project", database.file().string(), "use a backup or bake again");
+    throw DamagedFile("is damaged: its tables are not those of a project", database.file().string(),
+                      "use a backup or bake again");
 }
 
 void checkHeader(const fs::path& file) {
@@ -85,22 +90,28 @@ void checkHeader(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(header.data()), header.size());
   if (!stream || std::memcmp(header.data(), "SQLite format 3\0", 16) != 0)
-    throw DamagedFile("is not a PRT project", where, size == 0 ? "it is empty" : "give a .prt file that prt bake wrote");
+    throw DamagedFile("is not a PRT project", where,
+                      size == 0 ? "it is empty" : "give a .prt file that prt bake wrote");
   if (bigEndian(&header[68]) != std::uint32_t(kApplicationId))
-    throw DamagedFile("is an SQLite database, but not a PRT project", where, "give a .prt file that prt bake wrote");
+    throw DamagedFile("is an SQLite database, but not a PRT project", where,
+                      "give a .prt file that prt bake wrote");
   const std::uint32_t version = bigEndian(&header[60]);
   if (version > std::uint32_t(kProjectFormat))
-    throw FileError("was written by a newer version (format " + std::to_string(version) + ", this program knows " +
-                        std::to_string(kProjectFormat) + ")", where, "open it with a newer prt");
+    throw FileError("was written by a newer version (format " + std::to_string(version) +
+                        ", this program knows " + std::to_string(kProjectFormat) + ")",
+                    where, "open it with a newer prt");
   const std::uintmax_t wanted = std::uintmax_t(bigEndian(&header[28])) * kPageBytes;
   if (size < wanted)
-    throw DamagedFile("is truncated: " + std::to_string(size) + " of " + std::to_string(wanted) + " bytes are there",
-                      where, "copy it again or use a backup");
+    throw DamagedFile(
+        "is truncated: " + std::to_string(size) + " of " + std::to_string(wanted) + " bytes are there", where,
+        "copy it again or use a backup");
 }
 
 ProjectRow readProjectRow(Database& database) {
   Statement query(database, "SELECT program, recipe, sources, base, checksum FROM project");
-  if (!query.step()) throw DamagedFile("is damaged: it holds no recipe", database.file().string(), "use a backup or bake again");
+  if (!query.step())
+    throw DamagedFile("is damaged: it holds no recipe", database.file().string(),
+                      "use a backup or bake again");
   const ProjectRow row{query.text(0), query.text(1), query.text(2), query.text(3), query.text(4)};
   if (projectChecksum(database, row) != row.checksum)
     throw DamagedFile("is damaged: the recipe or the list of products has changed since it was written",
@@ -111,7 +122,9 @@ ProjectRow readProjectRow(Database& database) {
 void writeProjectRow(Database& database, ProjectRow row) {
   row.program = "prt " PRT_VERSION;
   row.checksum = projectChecksum(database, row);
-  Statement insert(database, "INSERT OR REPLACE INTO project(id, program, recipe, sources, base, checksum) VALUES(1, ?, ?, ?, ?, ?)");
+  Statement insert(database,
+                   "INSERT OR REPLACE INTO project(id, program, recipe, sources, base, checksum) VALUES(1, "
+                   "?, ?, ?, ?, ?)");
   insert.bind(row.program).bind(row.recipe).bind(row.sources).bind(row.base).bind(row.checksum).run();
 }
 

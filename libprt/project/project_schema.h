@@ -12,9 +12,9 @@
 
 namespace prt {
 
-inline constexpr int kApplicationId = 0x50525453;       // "PRTS"
-inline constexpr std::size_t kChunkBytes = 1u << 20;    // uncompressed
-inline constexpr std::size_t kCommitBytes = 8u << 20;   // compressed, between commits
+inline constexpr int kApplicationId = 0x50525453;      // "PRTS"
+inline constexpr std::size_t kChunkBytes = 1u << 20;   // uncompressed
+inline constexpr std::size_t kCommitBytes = 8u << 20;  // compressed, between commits
 inline const char* const kProduct = "product";
 inline const char* const kCheckpoint = "checkpoint";
 
@@ -54,6 +54,10 @@ std::string writeArray(Database& database, std::int64_t product, const std::stri
                        std::size_t& uncommitted);
 /// Reads and checks one array of a product.
 Array readArray(Database& database, std::int64_t product, const ArrayInfo& info);
+
+/// Ids that no row has or is meant for, what an interrupted write left included.
+std::int64_t nextProductId(Database& database);
+std::int64_t nextArrayId(Database& database);
 
 /// Removes a product's row, arrays and chunks.
 void deleteProduct(Database& database, std::int64_t id);

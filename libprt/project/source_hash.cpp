@@ -32,7 +32,8 @@ Hash128 hashOnce(const fs::path& file) {
   {
     std::lock_guard lock(mutex);
     const auto found = seen.find(file.string());
-    if (found != seen.end() && found->second.bytes == bytes && found->second.changed == changed) return found->second.hash;
+    if (found != seen.end() && found->second.bytes == bytes && found->second.changed == changed)
+      return found->second.hash;
   }
   const Hash128 hash = hashFile(file);
   std::lock_guard lock(mutex);
@@ -42,7 +43,8 @@ Hash128 hashOnce(const fs::path& file) {
 
 std::string lowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
@@ -64,12 +66,15 @@ std::vector<fs::path> buffersOf(const fs::path& gltf) {
 
 }  // namespace
 
+std::vector<fs::path> filesBeside(const fs::path& file) {
+  return lowerExtension(file) == ".gltf" ? buffersOf(file) : std::vector<fs::path>{};
+}
+
 std::string hashSource(const fs::path& file) {
   const std::string extension = lowerExtension(file);
   Hasher hasher;
   hasher.add(extension).add(hashOnce(file));
-  if (extension == ".gltf")
-    for (const fs::path& buffer : buffersOf(file)) hasher.add(hashOnce(buffer));
+  for (const fs::path& part : filesBeside(file)) hasher.add(hashOnce(part));
   return hasher.result().hex();
 }
 

@@ -2,15 +2,19 @@
 // prt-studio as a process of its own, with a home of its own.
 
 #include "tests/ui/small_scene.h"
+#include "tests/ui/wait.h"
 
 #include <nlohmann/json.hpp>
 
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
+#include <QDir>
 #include <QFile>
 #include <QProcess>
 #include <QTemporaryDir>
+
+#include <filesystem>
 
 namespace prt::test {
 
@@ -53,11 +57,45 @@ class StudioProcess : public testing::Test {
     file.write(QByteArray::fromStdString(recipeToJson(recipe).dump()));
     return file.fileName();
   }
+  void writeSettings(const QString& text) {
+    QDir(folder.path()).mkpath(QStringLiteral("PRT Studio"));
+    QFile file(folder.filePath(QStringLiteral("PRT Studio/prt-studio.conf")));
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(text.toUtf8());
+  }
+  /// Where the process keeps what a crash must not take.
+  std::filesystem::path recoveryRoot() const {
+    return folder.filePath(QStringLiteral("PRT Studio/prt-studio/recovery")).toStdString();
+  }
   static QString xdotool(const QStringList& arguments) {
     QProcess tool;
     tool.start(QStringLiteral("xdotool"), arguments);
     tool.waitForFinished(20000);
     return QString::fromUtf8(tool.readAllStandardOutput()).trimmed();
+  }
+  /// The number of its window, for xdotool; empty when there is none.
+  static QString findWindow() {
+    QString window;
+    waitFor([&] {
+      window = xdotool({QStringLiteral("search"), QStringLiteral("--onlyvisible"), QStringLiteral("--name"),
+                        QStringLiteral("PRT Studio")})
+                   .section(u'\n', 0, 0);
+      return !window.isEmpty();
+    });
+    return window;
+  }
+  /// Shift + drag in the picture.
+  static void turnEnvironment(const QString& window) {
+    const auto moveTo = [&](int x) {
+      xdotool({QStringLiteral("mousemove"), QStringLiteral("--window"), window, QString::number(x),
+               QStringLiteral("450")});
+    };
+    moveTo(640);
+    xdotool({QStringLiteral("keydown"), QStringLiteral("shift"), QStringLiteral("mousedown"),
+             QStringLiteral("1")});
+    for (int x = 660; x <= 760; x += 20) moveTo(x);
+    xdotool({QStringLiteral("mouseup"), QStringLiteral("1"), QStringLiteral("keyup"),
+             QStringLiteral("shift")});
   }
 
   QTemporaryDir folder;

@@ -56,22 +56,15 @@ TEST_F(StudioProcess, MouseAndKeysFromTheXServerWorkAndClosingDuringABakeIsClean
   Recipe recipe = smallScene();
   recipe.transfer.rays = 1 << 20;  // still baking when it is closed
   start({writeScene(recipe), s("--reset-ui")});
-  QString window;
-  ASSERT_TRUE(waitFor([&] {
-    window = xdotool({s("search"), s("--onlyvisible"), s("--name"), s("PRT Studio")}).section(u'\n', 0, 0);
-    return !window.isEmpty();
-  })) << "no window";
+  const QString window = findWindow();
+  ASSERT_FALSE(window.isEmpty()) << "no window";
   EXPECT_EQ(
       xdotool({s("search"), s("--onlyvisible"), s("--classname"), s("^prt-studio$")}).section(u'\n', 0, 0),
       window)
       << "task bars find the desktop file by it";
   pass(3000);  // read, light, first preview
   // The title shows an edited document once the environment has been turned.
-  xdotool({s("mousemove"), s("--window"), window, s("640"), s("450")});
-  xdotool({s("keydown"), s("shift"), s("mousedown"), s("1")});
-  for (int x = 660; x <= 760; x += 20)
-    xdotool({s("mousemove"), s("--window"), window, QString::number(x), s("450")});
-  xdotool({s("mouseup"), s("1"), s("keyup"), s("shift")});
+  turnEnvironment(window);
   EXPECT_TRUE(waitFor(
       [&] {
         return xdotool({s("getwindowname"), window}).contains(s(" *"));
@@ -80,6 +73,9 @@ TEST_F(StudioProcess, MouseAndKeysFromTheXServerWorkAndClosingDuringABakeIsClean
       << xdotool({s("getwindowname"), window}).toStdString();
   EXPECT_EQ(studio.state(), QProcess::Running);
   xdotool({s("windowfocus"), s("--sync"), window, s("key"), s("ctrl+q")});
+  pass(500);  // it asks about the edit
+  EXPECT_EQ(studio.state(), QProcess::Running);
+  xdotool({s("key"), s("alt+d")});  // don't save
   EXPECT_EQ(end(10000), 0) << output.toStdString();
 }
 

@@ -22,13 +22,24 @@ QString shortNumber(double value) {
 }
 
 QString stateText(const JobInfo& job) {
+  const QString done = job.progress.total > 0
+                           ? QStringLiteral(" \u00b7 %1 %").arg(int(100 * job.progress.fraction()))
+                           : QString();
   switch (job.state) {
-    case JobState::Queued: return QObject::tr("waiting");
-    case JobState::Paused: return QObject::tr("paused");
-    case JobState::Done: return QObject::tr("done");
-    case JobState::Cancelled: return QObject::tr("cancelled");
-    case JobState::Failed: return job.error;
-    case JobState::Running: break;
+    case JobState::Queued:
+      return QObject::tr("waiting for the one before it");
+    case JobState::Paused:
+      return QObject::tr("paused") + done;
+    case JobState::Cancelling:
+      return QObject::tr("stopping\u2026");
+    case JobState::Done:
+      return QObject::tr("done");
+    case JobState::Cancelled:
+      return QObject::tr("cancelled");
+    case JobState::Failed:
+      return job.error;
+    case JobState::Running:
+      break;
   }
   const QString phase = QString::fromStdString(job.progress.phase);
   const QString detail = progressText(job.progress);
@@ -46,8 +57,15 @@ QString progressText(const Progress& p) {
 }
 
 JobRow::JobRow(JobRunner& runner, quint64 id)
-    : runner_(runner), id_(id), title_(new QLabel), ended_(new QLabel), detail_(new QLabel), bar_(new QProgressBar),
-      pause_(new QToolButton), cancel_(new QToolButton) {
+    : runner_(runner),
+      id_(id),
+      title_(new QLabel),
+      ended_(new QLabel),
+      detail_(new QLabel),
+      bar_(new QProgressBar),
+      pause_(new QToolButton),
+      cancel_(new QToolButton),
+      retry_(new QToolButton) {
   setRole(detail_, "muted");
   detail_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   detail_->setWordWrap(true);
@@ -60,9 +78,19 @@ JobRow::JobRow(JobRunner& runner, quint64 id)
   connect(cancel_, &QToolButton::clicked, this, [this] { runner_.cancel(id_); });
   connect(pause_, &QToolButton::clicked, this, [this] {
     const JobInfo* job = runner_.find(id_);
-    if (job && job->state == JobState::Paused) runner_.resume(id_);
-    else runner_.pause(id_);
+    if (job && job->state == JobState::Paused)
+      runner_.resume(id_);
+    else
+      runner_.pause(id_);
   });
+  retry_->setIcon(icon(QStringLiteral("view-refresh")));
+  retry_->setText(tr("Try again"));
+  retry_->setToolTip(tr("Start it again, once the reason is out of the way."));
+  retry_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  retry_->setObjectName(QStringLiteral("retryJob"));
+  connect(retry_, &QToolButton::clicked, this, [this] { runner_.retry(id_); });
+  setObjectName(QStringLiteral("jobRow"));
+  detail_->setObjectName(QStringLiteral("jobState"));
   ended_->setProperty("role", QStringLiteral("muted"));
   auto* head = new QHBoxLayout;
   head->setSpacing(2);
@@ -70,6 +98,7 @@ JobRow::JobRow(JobRunner& runner, quint64 id)
   head->addWidget(ended_);
   head->addWidget(pause_);
   head->addWidget(cancel_);
+  head->addWidget(retry_);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(2 * kGrid, 2, 2 * kGrid, 2);
   all->setSpacing(3);
@@ -91,15 +120,21 @@ void JobRow::refresh() {
   if (failed) setRole(ended_, "failed");
   bar_->setVisible(live);
   bar_->setValue(int(1000 * job->progress.fraction()));
-  pause_->setVisible(job->state == JobState::Running || job->state == JobState::Paused);
-  const bool paused = job->state == JobState::Paused;
-  pause_->setIcon(icon(paused ? QStringLiteral("media-playback-start") : QStringLiteral("media-playback-pause")));
+  const bool paused = job->state == JobState::Paused, stopping = job->state == JobState::Cancelling;
+  bar_->setEnabled(!paused && !stopping);
+  pause_->setVisible(live && !stopping);
+  retry_->setVisible(failed && runner_.canRetry(id_));
+  pause_->setIcon(
+      icon(paused ? QStringLiteral("media-playback-start") : QStringLiteral("media-playback-pause")));
   pause_->setToolTip(paused ? tr("Go on") : tr("Pause"));
-  cancel_->setVisible(live);
+  cancel_->setVisible(live && !stopping);
 }
 
 JobsDock::JobsDock(JobRunner& runner, QWidget* parent)
-    : QWidget(parent), runner_(runner), rows_(nullptr), empty_(new QLabel(tr("Nothing is running. Bakes start by themselves\nafter edits and show up here."))) {
+    : QWidget(parent),
+      runner_(runner),
+      rows_(nullptr),
+      empty_(new QLabel(tr("Nothing is running. Bakes start by themselves\nafter edits and show up here."))) {
   setObjectName(QStringLiteral("dockBody"));
   auto* content = new QWidget;
   rows_ = new QVBoxLayout(content);
@@ -118,6 +153,7 @@ JobsDock::JobsDock(JobRunner& runner, QWidget* parent)
   all->setContentsMargins(0, 0, 0, 0);
   all->addWidget(scroll);
   connect(&runner_, &JobRunner::changed, this, &JobsDock::refresh);
+  connect(&runner_, &JobRunner::retried, this, &JobsDock::refresh);  // the failed one cannot be any more
 }
 
 void JobsDock::refresh(quint64 id) {

@@ -1,5 +1,6 @@
 #pragma once
-// What runs in the background: bar, rate, time left, pause, cancel.
+// What runs in the background: bar, rate, time left, pause, cancel; what failed, why, and
+// another try.
 
 #include "ui/model/job_runner.h"
 
@@ -29,6 +30,7 @@ class JobRow : public QWidget {
   QProgressBar* bar_;
   QToolButton* pause_;
   QToolButton* cancel_;
+  QToolButton* retry_;
 };
 
 class JobsDock : public QWidget {

@@ -40,7 +40,8 @@ std::map<std::string, std::string> readings(const Recipe& recipe) {
 const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer"};
 
 const Stage& stageNamed(const std::string& name) {
-  return *std::find_if(stages().begin(), stages().end(), [&](const Stage& stage) { return stage.name == name; });
+  return *std::find_if(stages().begin(), stages().end(),
+                       [&](const Stage& stage) { return stage.name == name; });
 }
 
 // The stage and all that it is made from, in any order.
@@ -67,7 +68,9 @@ struct BakeController::Mailbox {
   template <class Call>
   void post(Call call) {
     std::lock_guard lock(mutex);
-    if (owner) QMetaObject::invokeMethod(owner, [o = owner, call] { call(*o); }, Qt::QueuedConnection);
+    if (owner)
+      QMetaObject::invokeMethod(
+          owner, [o = owner, call] { call(*o); }, Qt::QueuedConnection);
   }
 };
 
@@ -84,7 +87,8 @@ class BakeController::Listener : public PipelineListener {
  private:
   static QString nameOf(const Stage& stage) { return QString::fromStdString(stage.name); }
   void pass(const Stage& stage, const ProductState& state) {
-    mailbox_->post([bake = bake_, name = nameOf(stage), state](BakeController& c) { c.arrived(bake, name, state); });
+    mailbox_->post(
+        [bake = bake_, name = nameOf(stage), state](BakeController& c) { c.arrived(bake, name, state); });
   }
 
   std::shared_ptr<Mailbox> mailbox_;
@@ -94,6 +98,9 @@ class BakeController::Listener : public PipelineListener {
 BakeController::BakeController(JobRunner& runner, QObject* parent)
     : QObject(parent), runner_(runner), mailbox_(std::make_shared<Mailbox>()) {
   mailbox_->owner = this;
+  connect(&runner_, &JobRunner::retried, this, [this](quint64 failed, quint64 job) {
+    if (failed == failedJob_) goOn(job);
+  });
   QStringList needed;
   for (const std::string& name : kWanted) collect(name, needed);
   for (const Stage& stage : stages())
@@ -107,9 +114,11 @@ BakeController::~BakeController() {
   mailbox_->owner = nullptr;
 }
 
-void BakeController::setBaker(std::shared_ptr<Baker> baker) {
+void BakeController::setBaker(std::shared_ptr<Baker> baker, const std::filesystem::path& folder) {
   cancel();
   baker_ = std::move(baker);
+  folder_ = folder;
+  seconds_ = 0;
   wanted_.clear();
   made_.clear();
   final_.clear();
@@ -129,6 +138,24 @@ void BakeController::setRecipe(const Recipe& recipe) {
   if (automatic_ && !fresh()) start();
 }
 
+void BakeController::moveTo(const std::filesystem::path& folder, const Recipe& recipe) {
+  folder_ = folder;
+  recipe_ = recipe;
+  std::map<std::string, std::string> wanted = readings(recipe);
+  for (auto& [stage, made] : made_)
+    if (made == wanted_[stage]) made = wanted[stage];
+  wanted_ = std::move(wanted);
+}
+
+double BakeController::bakedSeconds() const {
+  return seconds_ + (clock_.isValid() ? 1e-3 * double(clock_.elapsed()) : 0.0);
+}
+
+void BakeController::stopClock() {
+  seconds_ = bakedSeconds();
+  clock_.invalidate();
+}
+
 void BakeController::bake() {
   if (baker_ && !baking()) start();
 }
@@ -138,6 +165,7 @@ void BakeController::cancel() {
   const quint64 job = job_;
   ++bake_;  // whatever still comes from it is not wanted
   job_ = 0;
+  stopClock();
   for (StageInfo& info : infos_)
     if (info.status == ProductStatus::Baking) info.status = ProductStatus::Stale;
   runner_.cancel(job);
@@ -150,7 +178,8 @@ void BakeController::setAutomatic(bool automatic) {
 }
 
 bool BakeController::fresh() const {
-  return std::all_of(infos_.begin(), infos_.end(), [](const StageInfo& i) { return i.status == ProductStatus::Fresh; });
+  return std::all_of(infos_.begin(), infos_.end(),
+                     [](const StageInfo& i) { return i.status == ProductStatus::Fresh; });
 }
 
 ProductStatus BakeController::worstStatus(const QStringList& names) const {
@@ -164,15 +193,22 @@ ProductStatus BakeController::worstStatus(const QStringList& names) const {
 
 void BakeController::start() {
   const quint64 bake = ++bake_;
-  error_.clear();
-  const auto work = [baker = baker_, recipe = recipe_, mailbox = mailbox_, bake](Job& job) {
+  const auto work = [baker = baker_, folder = folder_, recipe = recipe_, mailbox = mailbox_, bake](Job& job) {
     Listener listener(mailbox, bake);
+    baker->pipeline.setFolder(folder);
     baker->pipeline.run(recipe, kWanted, job, &listener);
   };
   const auto finish = [self = QPointer(this), bake](const JobInfo& job) {
     if (self) self->ended(bake, job);
   };
-  job_ = runner_.start(QStringLiteral("bake"), tr("Bake transfer"), work, finish);
+  goOn(runner_.start(QStringLiteral("bake"), tr("Bake transfer"), work, finish));
+}
+
+void BakeController::goOn(quint64 job) {
+  job_ = job;
+  failedJob_ = 0;
+  error_.clear();
+  clock_.start();
   Q_EMIT changed();
 }
 
@@ -203,12 +239,15 @@ void BakeController::arrived(quint64 bake, const QString& stage, const ProductSt
 void BakeController::ended(quint64 bake, const JobInfo& job) {
   if (bake != bake_) return;
   job_ = 0;
+  stopClock();
   for (StageInfo& info : infos_) {
     const bool unfinished = info.status == ProductStatus::Baking;
-    if (unfinished) info.status = job.state == JobState::Failed ? ProductStatus::Failed : ProductStatus::Stale;
+    if (unfinished)
+      info.status = job.state == JobState::Failed ? ProductStatus::Failed : ProductStatus::Stale;
   }
   if (job.state == JobState::Failed) {
     error_ = job.error;
+    failedJob_ = job.id;
     Q_EMIT failed(job.error);
   }
   Q_EMIT changed();
@@ -219,14 +258,17 @@ void BakeController::refreshStale() {
   for (StageInfo& info : infos_) {
     const auto made = made_.find(info.name.toStdString());
     const bool same = made != made_.end() && made->second == wanted_.at(info.name.toStdString());
-    if (same) info.status = ProductStatus::Fresh;
-    else if (info.status != ProductStatus::Missing) info.status = ProductStatus::Stale;
+    if (same)
+      info.status = ProductStatus::Fresh;
+    else if (info.status != ProductStatus::Missing)
+      info.status = ProductStatus::Stale;
   }
   Q_EMIT changed();
 }
 
 StageInfo* BakeController::infoOf(const QString& stage) {
-  return &*std::find_if(infos_.begin(), infos_.end(), [&](const StageInfo& info) { return info.name == stage; });
+  return &*std::find_if(infos_.begin(), infos_.end(),
+                        [&](const StageInfo& info) { return info.name == stage; });
 }
 
 }  // namespace prt::ui

@@ -3,10 +3,10 @@
 // previews on as they arrive, and knows which product is fresh. One bake at a time; a newer recipe
 // replaces the older one's bake.
 
-#include "libprt/project/pipeline.h"
-#include "libprt/project/project_file.h"
+#include "ui/model/baker.h"
 #include "ui/model/job_runner.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QStringList>
 
@@ -27,22 +27,17 @@ struct StageInfo {
   int level = 0, levels = 0;  ///< of a preview
 };
 
-/// A pipeline with the file that keeps its products, if any. Used by one job at a time.
-struct Baker {
-  Baker(std::shared_ptr<ProjectFile> store, const std::filesystem::path& folder)
-      : file(std::move(store)), pipeline(file.get(), {.folder = folder}) {}
-  std::shared_ptr<ProjectFile> file;
-  Pipeline pipeline;
-};
-
 class BakeController : public QObject {
   Q_OBJECT
  public:
   explicit BakeController(JobRunner& runner, QObject* parent = nullptr);
   ~BakeController() override;
 
-  /// What bakes from now on: another project. Cancels what runs; the next setRecipe() begins anew.
-  void setBaker(std::shared_ptr<Baker> baker);
+  /// What bakes from now on: another project whose paths start from `folder`. Cancels what runs; the next
+  /// setRecipe() begins anew.
+  void setBaker(std::shared_ptr<Baker> baker, const std::filesystem::path& folder = "/");
+  /// The same products under other paths: the project moved to another folder. What runs goes on.
+  void moveTo(const std::filesystem::path& folder, const Recipe& recipe);
   const std::shared_ptr<Baker>& baker() const { return baker_; }
   /// The recipe whose products are wanted from now on. Begins a bake when that changes a product (or
   /// only marks products stale when automatic baking is off).
@@ -56,6 +51,8 @@ class BakeController : public QObject {
 
   bool baking() const { return job_ != 0; }
   quint64 job() const { return job_; }
+  /// Seconds that bakes took since setBaker().
+  double bakedSeconds() const;
   const std::vector<StageInfo>& stageInfos() const { return infos_; }
   /// Everything fresh?
   bool fresh() const;
@@ -78,6 +75,8 @@ class BakeController : public QObject {
   struct Mailbox;
 
   void start();
+  void goOn(quint64 job);
+  void stopClock();
   void begun(quint64 bake, const QString& stage);
   void arrived(quint64 bake, const QString& stage, const ProductState& state);
   void ended(quint64 bake, const JobInfo& job);
@@ -87,12 +86,16 @@ class BakeController : public QObject {
   JobRunner& runner_;
   std::shared_ptr<Mailbox> mailbox_;  // how the job's thread finds this object, while it lives
   std::shared_ptr<Baker> baker_;
+  std::filesystem::path folder_ = "/";
   Recipe recipe_;
+  QElapsedTimer clock_;  // valid while it bakes
+  double seconds_ = 0;
   // By stage, what it and its inputs read from the recipe: as wanted now; of the final product.
   std::map<std::string, std::string> wanted_, made_;
   std::map<std::string, ProductState> final_;
   quint64 bake_ = 0;  // number of the current bake: results of older ones are dropped
   quint64 job_ = 0;
+  quint64 failedJob_ = 0;
   bool automatic_ = true;
   std::vector<StageInfo> infos_;
   QString error_;

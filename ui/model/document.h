@@ -6,7 +6,10 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -15,8 +18,9 @@ namespace prt::ui {
 class Document : public QObject {
   Q_OBJECT
  public:
-  /// Steps that undo can go back.
-  static constexpr int kMaxUndo = 256;
+  /// Steps that undo can go back, and what they may take together; the oldest go first.
+  static constexpr int kMaxUndo = 1000;
+  static constexpr std::size_t kMaxUndoBytes = std::size_t(64) << 20;
 
   explicit Document(QObject* parent = nullptr);
 
@@ -28,11 +32,18 @@ class Document : public QObject {
   /// Whether the recipe differs from what is saved.
   bool modified() const { return recipe_ != saved_; }
 
+  /// What the recipe's relative paths start from: the project's folder, or "/" while there is none.
+  std::filesystem::path folder() const;
+  /// The recipe that counts as saved.
+  const Recipe& saved() const { return saved_; }
+
   /// Another project: forgets the history.
   void open(Recipe recipe, const QString& path);
-  /// What is in the file now: the recipe with its file paths told from the file's folder. When paths had
-  /// to change, there is no undo past this point.
+  /// The project is in this file now, as `saved`: a recipe that was current since the last call. File paths
+  /// are told from the file's folder from now on, in the history too.
   void markSaved(const QString& path, const Recipe& saved);
+  /// What `recipe` becomes when the project moves into this file.
+  Recipe movedTo(const QString& path, Recipe recipe) const;
 
   /// Makes `next` the current recipe. Undo will offer `name`. Nothing happens when nothing differs.
   void edit(const QString& name, const Recipe& next);
@@ -47,12 +58,21 @@ class Document : public QObject {
   void cancelGesture();
   bool inGesture() const { return gestureDepth_ > 0; }
 
+  /// Names of the edits since the last save, oldest first.
+  QStringList editsSinceSave() const;
+  /// Names of all steps that undo can take back, oldest first; and of those that redo can bring again,
+  /// the next one first.
+  QStringList undoNames() const;
+  QStringList redoNames() const;
+
   bool canUndo() const { return !undo_.empty(); }
   bool canRedo() const { return !redo_.empty(); }
   QString undoName() const { return canUndo() ? undo_.back().name : QString(); }
   QString redoName() const { return canRedo() ? redo_.back().name : QString(); }
   void undo();
   void redo();
+  /// Undoes (steps < 0) or redoes several at once.
+  void step(int steps);
 
  Q_SIGNALS:
   void recipeChanged();
@@ -67,10 +87,12 @@ class Document : public QObject {
     Recipe recipe;  // the other side of the step
   };
   void remember(const QString& name, const Recipe& before);
+  void swapWith(std::vector<Step>& from, std::vector<Step>& to);
 
   Recipe recipe_, saved_;
   QString path_;
   std::vector<Step> undo_, redo_;
+  int savedDepth_ = 0;  // steps of undo_ when it was saved; negative: they are forgotten
   int gestureDepth_ = 0;
   QString gestureName_;
   std::optional<Recipe> gestureStart_;
@@ -90,5 +112,9 @@ class Gesture {
 
 /// A parameter's name for people: "transfer.bands" -> "Bands".
 QString parameterTitle(const QString& path);
+/// What an edit of it is called, with what it belongs to: "Exponent of vase", "Angle of sun", "Bands".
+QString editName(const Recipe& recipe, const QString& path);
+/// Memory that a recipe takes.
+std::size_t bytesOf(const Recipe& recipe);
 
 }  // namespace prt::ui

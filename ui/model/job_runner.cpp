@@ -13,13 +13,17 @@ namespace prt::ui {
 
 struct JobRunner::Task {
   Task(JobRunner* runner, quint64 number, QString ofKind, Work toDo, Finish whenOver)
-      : id(number), kind(std::move(ofKind)), work(std::move(toDo)), finish(std::move(whenOver)),
+      : id(number),
+        kind(std::move(ofKind)),
+        work(std::move(toDo)),
+        finish(std::move(whenOver)),
         job([runner, number](const Progress& progress) { runner->report(number, progress); }) {}
 
   quint64 id;
   QString kind;
   Work work;
   Finish finish;
+  bool held = false;  // paused while it waits
   Job job;
 };
 
@@ -27,7 +31,9 @@ JobRunner::JobRunner(int threads, QObject* parent) : QObject(parent) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { workerLoop(); });
 }
 
-JobRunner::~JobRunner() { stop(); }
+JobRunner::~JobRunner() {
+  stop();
+}
 
 void JobRunner::stop() {
   {
@@ -43,8 +49,13 @@ void JobRunner::stop() {
 
 quint64 JobRunner::start(const QString& kind, const QString& title, Work work, Finish finish) {
   cancelKind(kind);
+  std::erase_if(failed_, [&](const auto& task) { return task->kind == kind; });
   const quint64 id = nextId_++;
-  infos_.push_back({id, kind, title, JobState::Queued, {}, {}});
+  JobInfo& added = infos_.emplace_back();
+  added.id = id;
+  added.kind = kind;
+  added.title = title;
+
   forgetOld();
   {
     std::lock_guard lock(mutex_);
@@ -55,19 +66,40 @@ quint64 JobRunner::start(const QString& kind, const QString& title, Work work, F
   return id;
 }
 
+// A task that waits or runs; under the mutex.
+std::shared_ptr<JobRunner::Task> JobRunner::taskOf(quint64 id) {
+  for (const auto& task : running_)
+    if (task->id == id) return task;
+  for (const auto& task : queue_)
+    if (task->id == id) return task;
+  return nullptr;
+}
+
+// Of a job that is not over: its end may be on the way to this thread, and comes after.
+void JobRunner::setState(quint64 id, JobState state) {
+  JobInfo* job = info(id);
+  if (!job || job->over() || job->state == state) return;
+  if (job->pause.isValid()) job->paused += 1e-3 * double(job->pause.elapsed());
+  job->pause.invalidate();
+  if (state == JobState::Paused) job->pause.start();
+  job->state = state;
+  Q_EMIT changed(id);
+}
+
 void JobRunner::cancel(quint64 id) {
-  std::shared_ptr<Task> dropped;
+  std::shared_ptr<Task> dropped, running;
   {
     std::lock_guard lock(mutex_);
-    for (const auto& task : running_)
-      if (task->id == id) task->job.cancel();
-    const auto found = std::find_if(queue_.begin(), queue_.end(), [&](const auto& t) { return t->id == id; });
-    if (found != queue_.end()) {
-      dropped = *found;
-      queue_.erase(found);
-    }
+    const auto task = taskOf(id);
+    if (task && std::erase(queue_, task) > 0)
+      dropped = task;
+    else
+      running = task;
   }
-  if (dropped) conclude(dropped, JobState::Cancelled, {});
+  if (dropped) return conclude(dropped, JobState::Cancelled, {});
+  if (!running) return;
+  running->job.cancel();
+  setState(id, JobState::Cancelling);
 }
 
 void JobRunner::cancelKind(const QString& kind) {
@@ -78,26 +110,51 @@ void JobRunner::cancelKind(const QString& kind) {
 }
 
 void JobRunner::pause(quint64 id) {
-  std::lock_guard lock(mutex_);
-  for (const auto& task : running_)
-    if (task->id == id) {
-      task->job.pause();
-      info(id)->state = JobState::Paused;
-      QMetaObject::invokeMethod(this, [this, id] { Q_EMIT changed(id); }, Qt::QueuedConnection);
-    }
+  const JobInfo* job = find(id);
+  if (!job || job->over() || job->state == JobState::Cancelling) return;
+  {
+    std::lock_guard lock(mutex_);
+    const auto task = taskOf(id);
+    if (!task) return;  // its end is on the way
+    task->held = true;
+    task->job.pause();
+  }
+  setState(id, JobState::Paused);
 }
 
 void JobRunner::resume(quint64 id) {
-  std::lock_guard lock(mutex_);
-  for (const auto& task : running_)
-    if (task->id == id) {
-      task->job.resume();
-      info(id)->state = JobState::Running;
-      QMetaObject::invokeMethod(this, [this, id] { Q_EMIT changed(id); }, Qt::QueuedConnection);
-    }
+  bool waits = false;
+  {
+    std::lock_guard lock(mutex_);
+    const auto task = taskOf(id);
+    if (!task || !task->held) return;
+    task->held = false;
+    task->job.resume();
+    waits = std::find(queue_.begin(), queue_.end(), task) != queue_.end();
+  }
+  wake_.notify_all();
+  setState(id, waits ? JobState::Queued : JobState::Running);
 }
 
-const JobInfo* JobRunner::find(quint64 id) const { return const_cast<JobRunner*>(this)->info(id); }
+bool JobRunner::canRetry(quint64 id) const {
+  return std::any_of(failed_.begin(), failed_.end(), [id](const auto& task) { return task->id == id; });
+}
+
+quint64 JobRunner::retry(quint64 id) {
+  const auto found =
+      std::find_if(failed_.begin(), failed_.end(), [id](const auto& task) { return task->id == id; });
+  const JobInfo* job = find(id);
+  if (found == failed_.end() || !job) return 0;
+  const std::shared_ptr<Task> task = *found;
+  const QString title = job->title;
+  const quint64 again = start(task->kind, title, task->work, task->finish);
+  Q_EMIT retried(id, again);
+  return again;
+}
+
+const JobInfo* JobRunner::find(quint64 id) const {
+  return const_cast<JobRunner*>(this)->info(id);
+}
 
 bool JobRunner::idle() const {
   return std::all_of(infos_.begin(), infos_.end(), [](const JobInfo& each) { return each.over(); });
@@ -120,7 +177,8 @@ std::shared_ptr<JobRunner::Task> JobRunner::takeTask() {
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     const auto ready = std::find_if(queue_.begin(), queue_.end(), [this](const auto& waiting) {
-      return std::none_of(running_.begin(), running_.end(), [&](const auto& t) { return t->kind == waiting->kind; });
+      return !waiting->held && std::none_of(running_.begin(), running_.end(),
+                                            [&](const auto& t) { return t->kind == waiting->kind; });
     });
     if (ready != queue_.end()) {
       std::shared_ptr<Task> task = *ready;
@@ -134,10 +192,13 @@ std::shared_ptr<JobRunner::Task> JobRunner::takeTask() {
 }
 
 void JobRunner::run(const std::shared_ptr<Task>& task) {
-  QMetaObject::invokeMethod(this, [this, id = task->id] {
-    if (JobInfo* job = info(id); job && job->state == JobState::Queued) job->state = JobState::Running;
-    Q_EMIT changed(id);
-  }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this,
+      [this, id = task->id] {
+        if (JobInfo* job = info(id); job && job->state == JobState::Queued) job->state = JobState::Running;
+        Q_EMIT changed(id);
+      },
+      Qt::QueuedConnection);
 
   JobState state = JobState::Done;
   QString error;
@@ -152,16 +213,22 @@ void JobRunner::run(const std::shared_ptr<Task>& task) {
     state = JobState::Failed;
     error = QString::fromUtf8(problem.what());
   }
-  QMetaObject::invokeMethod(this, [this, task, state, error] { conclude(task, state, error); }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this, [this, task, state, error] { conclude(task, state, error); }, Qt::QueuedConnection);
 }
 
 void JobRunner::report(quint64 id, const Progress& progress) {
-  QMetaObject::invokeMethod(this, [this, id, progress] {
-    if (JobInfo* job = info(id); job && !job->over()) {
-      job->progress = progress;
-      Q_EMIT changed(id);
-    }
-  }, Qt::QueuedConnection);
+  QMetaObject::invokeMethod(
+      this,
+      [this, id, progress] {
+        JobInfo* job = info(id);
+        if (!job || job->over()) return;
+        if (progress.phase != job->progress.phase) job->paused = 0;
+        job->progress = progress;
+        job->progress.seconds = std::max(0.0, progress.seconds - job->paused);
+        Q_EMIT changed(id);
+      },
+      Qt::QueuedConnection);
 }
 
 void JobRunner::conclude(const std::shared_ptr<Task>& task, JobState state, const QString& error) {
@@ -169,6 +236,7 @@ void JobRunner::conclude(const std::shared_ptr<Task>& task, JobState state, cons
   if (!job) return;
   job->state = state;
   job->error = error;
+  if (state == JobState::Failed) failed_.push_back(task);
   const JobInfo copy = *job;
   Q_EMIT changed(copy.id);
   if (task->finish) task->finish(copy);
@@ -176,13 +244,15 @@ void JobRunner::conclude(const std::shared_ptr<Task>& task, JobState state, cons
 }
 
 JobInfo* JobRunner::info(quint64 id) {
-  const auto found = std::find_if(infos_.begin(), infos_.end(), [id](const JobInfo& each) { return each.id == id; });
+  const auto found =
+      std::find_if(infos_.begin(), infos_.end(), [id](const JobInfo& each) { return each.id == id; });
   return found == infos_.end() ? nullptr : &*found;
 }
 
 void JobRunner::forgetOld() {
   while (infos_.size() > kRemembered) {
-    const auto over = std::find_if(infos_.begin(), infos_.end(), [](const JobInfo& each) { return each.over(); });
+    const auto over =
+        std::find_if(infos_.begin(), infos_.end(), [](const JobInfo& each) { return each.over(); });
     if (over == infos_.end()) return;
     infos_.erase(over);
   }

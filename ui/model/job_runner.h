@@ -5,6 +5,7 @@
 
 #include "libprt/core/job.h"
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 
@@ -18,7 +19,8 @@
 
 namespace prt::ui {
 
-enum class JobState { Queued, Running, Paused, Done, Cancelled, Failed };
+/// Cancelling: it was told to stop and has not yet.
+enum class JobState { Queued, Running, Paused, Cancelling, Done, Cancelled, Failed };
 
 /// What there is to know about one job.
 struct JobInfo {
@@ -26,10 +28,13 @@ struct JobInfo {
   QString kind;   ///< jobs of one kind run one after another
   QString title;  ///< for people
   JobState state = JobState::Queued;
-  Progress progress;
-  QString error;  ///< of a failed job
+  Progress progress;  ///< its seconds without pauses
+  QString error;      ///< of a failed job
 
   bool over() const { return state >= JobState::Done; }
+
+  QElapsedTimer pause = {};  ///< valid while it is paused
+  double paused = 0;         ///< seconds of pauses in this phase
 };
 
 class JobRunner : public QObject {
@@ -39,7 +44,8 @@ class JobRunner : public QObject {
   /// Called on the runner's thread when the work ended, unless the runner is gone.
   using Finish = std::function<void(const JobInfo&)>;
 
-  explicit JobRunner(int threads = 2, QObject* parent = nullptr);
+  /// `threads`: jobs that run, or are paused, at a time. Each uses all cores where it can.
+  explicit JobRunner(int threads = 4, QObject* parent = nullptr);
   /// Cancels everything and waits for it: at most as long as the library takes to react.
   ~JobRunner() override;
   /// The same, early; nothing can be started after it.
@@ -49,10 +55,16 @@ class JobRunner : public QObject {
   /// request is the one that counts.
   quint64 start(const QString& kind, const QString& title, Work work, Finish finish = {});
 
+  /// What waits ends at once, what runs as soon as it notices.
   void cancel(quint64 id);
   void cancelKind(const QString& kind);
+  /// What waits stays waiting, what runs stops where it is and keeps its memory.
   void pause(quint64 id);
   void resume(quint64 id);
+  /// Whether a failed job can be tried again: nothing of its kind was asked for since.
+  bool canRetry(quint64 id) const;
+  /// Starts it again as a new job; 0 when it cannot.
+  quint64 retry(quint64 id);
 
   /// The jobs that wait or run, and the last few that are over; oldest first.
   const std::vector<JobInfo>& jobs() const { return infos_; }
@@ -63,11 +75,15 @@ class JobRunner : public QObject {
   /// A job was added, progressed, or ended.
   void changed(quint64 id);
   void finished(quint64 id);
+  /// A failed job goes on as another one.
+  void retried(quint64 failed, quint64 id);
 
  private:
   struct Task;
   static constexpr std::size_t kRemembered = 20;
 
+  std::shared_ptr<Task> taskOf(quint64 id);
+  void setState(quint64 id, JobState state);
   void workerLoop();
   std::shared_ptr<Task> takeTask();
   void run(const std::shared_ptr<Task>& task);
@@ -76,14 +92,16 @@ class JobRunner : public QObject {
   JobInfo* info(quint64 id);
   void forgetOld();
 
-  std::mutex mutex_;  // guards queue_, running_, stopping_
+  std::mutex mutex_;  // guards queue_, running_, stopping_ and Task::held
   std::condition_variable wake_;
   std::deque<std::shared_ptr<Task>> queue_;
   std::vector<std::shared_ptr<Task>> running_;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 
-  std::vector<JobInfo> infos_;  // only on the runner's own thread, as all below
+  // Below: only on the runner's own thread, and never under the mutex.
+  std::vector<JobInfo> infos_;
+  std::vector<std::shared_ptr<Task>> failed_;  // can be tried again; one of a kind
   quint64 nextId_ = 1;
 };
 

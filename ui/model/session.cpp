@@ -21,11 +21,7 @@ namespace prt::ui {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kLightBands = 10;  // as many as transfer can have
-
-fs::path nativePath(const QString& path) { return fs::path(path.toStdString()); }
 
 bool isEnvironmentFile(const QString& path) {
   const QString ending = QFileInfo(path).suffix().toLower();
@@ -34,26 +30,27 @@ bool isEnvironmentFile(const QString& path) {
 
 QString nameOf(TransferForm form) {
   switch (form) {
-    case TransferForm::None: return QObject::tr("nothing (light arrives unchanged)");
-    case TransferForm::Diffuse: return QObject::tr("a diffuse vector");
-    case TransferForm::Visibility: return QObject::tr("the visibility function");
-    case TransferForm::Matrix: return QObject::tr("a transfer matrix");
+    case TransferForm::None:
+      return QObject::tr("nothing (light arrives unchanged)");
+    case TransferForm::Diffuse:
+      return QObject::tr("a diffuse vector");
+    case TransferForm::Visibility:
+      return QObject::tr("the visibility function");
+    case TransferForm::Matrix:
+      return QObject::tr("a transfer matrix");
   }
   return {};
 }
 
 }  // namespace
 
-/// What opening a file brings, made on a job's thread.
-struct Session::Opened {
-  Recipe recipe;
-  QString path;  // of a project
-  std::shared_ptr<Baker> baker;
-};
-
 Session::Session(QObject* parent)
-    : QObject(parent), bakes_(jobs_), environments_(std::make_shared<EnvironmentCache>()),
-      sceneEditor_(std::make_unique<SceneEditor>(*this)), defects_(std::make_unique<DefectView>(*this)),
+    : QObject(parent),
+      bakes_(jobs_),
+      project_(document_, bakes_, jobs_, log_),
+      environments_(std::make_shared<EnvironmentCache>()),
+      sceneEditor_(std::make_unique<SceneEditor>(*this)),
+      defects_(std::make_unique<DefectView>(*this)),
       errors_(std::make_unique<ErrorEstimate>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);
@@ -61,9 +58,17 @@ Session::Session(QObject* parent)
   connect(&bakes_, &BakeController::changed, this, &Session::statusChanged);
   connect(&bakes_, &BakeController::failed, this,
           [this](const QString& text) { report(Severity::Error, text, Place::Transfer); });
+  connect(&project_, &ProjectKeeper::leaving, this, &Session::forget);
+  connect(&project_, &ProjectKeeper::statusChanged, this, &Session::statusChanged);
+  connect(&project_, &ProjectKeeper::failed, this,
+          [this](const QString& text) { report(Severity::Error, text); });
+  connect(&project_, &ProjectKeeper::notice, this,
+          [this](const QString& text) { report(Severity::Warning, text); });
 }
 
-Session::~Session() { jobs_.stop(); }
+Session::~Session() {
+  jobs_.stop();
+}
 
 QStringList Session::sampleScenes() const {
   QStringList names;
@@ -74,47 +79,15 @@ QStringList Session::sampleScenes() const {
 // ---- opening ----
 
 void Session::open(const QString& what) {
-  if (isEnvironmentFile(what)) return openEnvironment(what);
-  const bool builtin = what.startsWith(u"scene:") || what.startsWith(u"builtin:");
-  const QString path = builtin ? what : QFileInfo(what).absoluteFilePath();
-  auto result = std::make_shared<Opened>();
-  const auto work = [path, result](Job& job) { readProject(path, *result, job); };
-  const auto finish = [this, result, what](const JobInfo& job) {
-    opening_ = false;
-    if (job.state == JobState::Done) adopt(*result);
-    else if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Viewport);
-    Q_EMIT statusChanged();
-  };
-  opening_ = true;
-  jobs_.start(QStringLiteral("open"), tr("Open %1").arg(QFileInfo(what).fileName()), work, finish);
-  Q_EMIT statusChanged();
+  isEnvironmentFile(what) ? openEnvironment(what) : project_.open(what);
 }
 
-// Reads as far as it takes to know that it can be shown: the scene stage. What was read stays with the
-// baker, so the bake does not read it again.
-void Session::readProject(const QString& path, Opened& opened, Job& job) {
-  const RecipeSource source = openRecipe(path.toStdString());
-  opened.recipe = source.recipe;
-  std::shared_ptr<ProjectFile> file;
-  if (!source.project.empty()) {
-    file = ProjectFile::openForWork(source.project);
-    opened.recipe = file->recipe();
-    opened.path = QString::fromStdString(source.project.string());
-  } else {
-    rebasePaths(opened.recipe, source.folder, "/");  // not saved anywhere: paths from the root
-  }
-  opened.baker = std::make_shared<Baker>(file, file ? source.folder : fs::path("/"));
-  opened.baker->pipeline.run(opened.recipe, {"scene"}, job);
-}
-
-void Session::adopt(const Opened& opened) {
+// What belonged to the document before.
+void Session::forget() {
   frameNext_ = true;
   selectedObject_ = 0;
   environmentShown_.clear();
   relighter_.setScene(nullptr);
-  bakes_.setBaker(opened.baker);
-  document_.open(opened.recipe, opened.path);
-  log_.add(Severity::Info, tr("Opened %1").arg(document_.title()));
   Q_EMIT selectionChanged(selectedObject_);
 }
 
@@ -122,39 +95,9 @@ void Session::openEnvironment(const QString& path) {
   const QString file = QFileInfo(path).absoluteFilePath();
   const LightRecipe light{.path = file.toStdString()};
   startEnvironment(light, [this, file, light] {
-    environmentShown_ = mapKey(light);  // it is there already
+    environmentShown_ = shownKey(light);  // it is there already
     lights_.setEnvironment(file);
   });
-}
-
-void Session::save(const QString& path) {
-  const fs::path file = nativePath(QFileInfo(path).absoluteFilePath());
-  const bool sameFile = bakes_.baker() && bakes_.baker()->file && bakes_.baker()->file->file() == file;
-  Recipe recipe = document_.recipe();
-  if (!sameFile) rebasePaths(recipe, folder(), file.parent_path());
-  bakes_.cancel();  // the file is the bake's store; it goes on from its checkpoint afterwards
-  // A project of another name gets the products that there are; the next bake finds them in it.
-  auto next = std::make_shared<std::shared_ptr<Baker>>(bakes_.baker());
-  const auto work = [=, products = bakes_.finalProducts()](Job&) {
-    if (!sameFile) *next = std::make_shared<Baker>(ProjectFile::openForWork(file), file.parent_path());
-    const auto& store = (*next)->file;
-    store->setRecipe(recipe);
-    for (const auto& [stage, state] : products) {
-      const auto known = std::find_if(stages().begin(), stages().end(), [&](const Stage& s) { return s.name == stage; });
-      if (!sameFile && known->stored) store->put(stage, state.key, {state.product->save(), state.level, state.levels});
-    }
-    store->save();
-  };
-  const auto finish = [this, file, recipe, sameFile, next](const JobInfo& job) {
-    if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Viewport);
-    if (job.state != JobState::Done) return;
-    const QString name = QString::fromStdString(file.string());
-    if (!sameFile) bakes_.setBaker(*next);
-    document_.markSaved(name, recipe);
-    log_.add(Severity::Info, tr("Saved %1").arg(document_.title()));
-    if (bakes_.automatic()) bakes_.bake();
-  };
-  jobs_.start(QStringLiteral("bake"), tr("Save %1").arg(QFileInfo(path).fileName()), work, finish);
 }
 
 // ---- the light ----
@@ -179,7 +122,15 @@ QString Session::environmentFile() const {
 
 QString Session::absolutePath(const LightRecipe& light) const {
   const QString path = QString::fromStdString(light.path);
-  return isBuiltin(light.path) ? path : QString::fromStdString((folder() / light.path).lexically_normal().string());
+  return isBuiltin(light.path)
+             ? path
+             : QString::fromStdString((document_.folder() / light.path).lexically_normal().string());
+}
+
+// The same wherever the project is.
+std::string Session::shownKey(LightRecipe light) const {
+  light.path = absolutePath(light).toStdString();
+  return mapKey(light);
 }
 
 QString Session::environmentPath() const {
@@ -199,7 +150,7 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
     ShRgb coefficients;
   };
   auto result = std::make_shared<Result>();
-  const auto work = [result, light, folder = folder(), cache = environments_](Job& job) {
+  const auto work = [result, light, folder = document_.folder(), cache = environments_](Job& job) {
     result->map = cache->get(light, folder);
     result->coefficients = projectEnvironment(*result->map, kLightBands, job);
   };
@@ -207,7 +158,7 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
     if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Light);
     if (job.state != JobState::Done) return;
     loaded();
-    if (environmentShown_ != mapKey(light)) return;  // another one is wanted by now
+    if (environmentShown_ != shownKey(light)) return;  // another one is wanted by now
     environmentExact_ = true;
     probes_.note(absolutePath(light));
     relighter_.setEnvironment(result->map, result->coefficients);
@@ -233,7 +184,7 @@ void Session::applyLights() {
   rig.rotation = float(radians(light.rotation));
   rig.intensity = light.on ? light.intensity : 0;
   relighter_.setLights(rig, document_.recipe().method);
-  if (std::exchange(environmentShown_, mapKey(light)) == mapKey(light)) return;
+  if (std::exchange(environmentShown_, shownKey(light)) == shownKey(light)) return;
   if (!hasSun(light)) return startEnvironment(light, [] {});
   showQuickSky(light);
   finishSky();
@@ -316,9 +267,11 @@ PictureStatus Session::status() const {
   PictureStatus status;
   const auto& transfer = relighter_.transfer();
   const auto& materials = relighter_.materials();
-  const bool glossy = std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
+  const bool glossy =
+      std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
   status.bands = relighter_.bands();
-  status.method = glossy && !(transfer && transfer->form == TransferForm::Diffuse) ? tr("Glossy") : tr("Diffuse");
+  status.method =
+      glossy && !(transfer && transfer->form == TransferForm::Diffuse) ? tr("Glossy") : tr("Diffuse");
   if (!transfer) return status;
   status.level = level_;
   status.levels = levels_;
@@ -341,13 +294,13 @@ QString Session::transferSummary() const {
   return text;
 }
 
-std::filesystem::path Session::folder() const {
-  return document_.path().isEmpty() ? fs::path("/") : nativePath(document_.path()).parent_path();
+bool Session::settled() const {
+  return !opening() && jobs_.idle() && relighter_.scene() != nullptr;
 }
 
-bool Session::settled() const { return !opening_ && jobs_.idle() && relighter_.scene() != nullptr; }
-
-Box3 Session::bounds() const { return relighter_.scene() ? relighter_.scene()->mesh.bounds() : Box3{}; }
+Box3 Session::bounds() const {
+  return relighter_.scene() ? relighter_.scene()->mesh.bounds() : Box3{};
+}
 
 void Session::report(Severity severity, const QString& text, Place place) {
   log_.add(severity, text);

@@ -9,6 +9,7 @@
 #include "ui/model/light_editor.h"
 #include "ui/model/log.h"
 #include "ui/model/probe_library.h"
+#include "ui/model/project_keeper.h"
 #include "ui/model/relighter.h"
 #include "ui/model/scene_rays.h"
 #include "ui/model/surface_layers.h"
@@ -16,7 +17,6 @@
 
 #include <QObject>
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -33,7 +33,7 @@ class SceneEditor;
 
 /// What the picture on screen is made with.
 struct PictureStatus {
-  QString method;            ///< "Diffuse", "Glossy", "Unshadowed"
+  QString method;  ///< "Diffuse", "Glossy", "Unshadowed"
   int bands = 0;
   int level = 0, levels = 0;  ///< passes of the transfer that is drawn; level == levels: final
   int rays = 0, raysWanted = 0;
@@ -63,19 +63,18 @@ class Session : public QObject {
   SceneEditor& sceneEditor() { return *sceneEditor_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
+  ProjectKeeper& project() { return project_; }
 
-  /// Opens by kind: a project (.prt), a recipe (.json), a mesh, an environment (.hdr, .exr, .png), or
-  /// "scene:NAME". The document changes only once the file has been read; until then, and when it cannot be,
-  /// everything stays as it was.
+  /// Opens by kind: an environment (.hdr, .exr, .png) becomes the light, everything else the document
+  /// (ProjectKeeper::open).
   void open(const QString& what);
   void openDefaultScene() { open(QStringLiteral("scene:default")); }
-  bool opening() const { return opening_; }
+  bool opening() const { return project_.opening(); }
   /// Nothing is being read or baked, and there is something to see.
   bool settled() const;
   /// Names for open("scene:NAME").
   QStringList sampleScenes() const;
-  /// Writes the project with everything baked so far.
-  void save(const QString& path);
+  void save(const QString& path) { project_.save(path); }
 
   /// Degrees, counter-clockwise seen from above; of the first environment light.
   double environmentAngle() const;
@@ -113,16 +112,13 @@ class Session : public QObject {
   void message(prt::ui::Severity severity, const QString& text, prt::ui::Place place);
 
  private:
-  struct Opened;
-
-  static void readProject(const QString& path, Opened& opened, Job& job);
-  void adopt(const Opened& opened);
+  void forget();
   void openEnvironment(const QString& path);
   QString absolutePath(const LightRecipe& light) const;
+  std::string shownKey(LightRecipe light) const;
   void startEnvironment(const LightRecipe& light, std::function<void()> loaded);
   void showQuickSky(const LightRecipe& light);
   void finishSky();
-  std::filesystem::path folder() const;
   void follow();
   void applyLights();
   void applyMaterials();
@@ -136,11 +132,11 @@ class Session : public QObject {
   Relighter relighter_;
   JobRunner jobs_;
   BakeController bakes_;
+  ProjectKeeper project_;
   ProbeLibrary probes_{jobs_};
   SceneRays rays_{relighter_, jobs_};
   std::shared_ptr<EnvironmentCache> environments_;  // used by one job at a time
-  bool opening_ = false;
-  bool frameNext_ = false;  // the next scene is a new one: show all of it
+  bool frameNext_ = false;                          // the next scene is a new one: show all of it
   int selectedObject_ = 0;
   std::string environmentShown_;  // key of the map that is loaded or on its way
   bool environmentExact_ = true;

@@ -4,11 +4,12 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QToolButton>
 
 namespace prt::ui {
 
-MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), text_(new QLabel) {
+MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), text_(new QLabel), fix_(new QPushButton) {
   setObjectName(QStringLiteral("messageBar"));
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -22,7 +23,13 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), tex
   row->setSpacing(2 * kGrid);
   row->addWidget(icon_, 0, Qt::AlignTop);
   row->addWidget(text_, 1);
+  row->addWidget(fix_, 0, Qt::AlignTop);
   row->addWidget(close, 0, Qt::AlignTop);
+  fix_->setObjectName(QStringLiteral("messageFix"));
+  connect(fix_, &QPushButton::clicked, this, [this] {
+    hide();
+    if (run_) run_();
+  });
   hide();
 }
 
@@ -32,7 +39,16 @@ void MessageBar::show(Severity severity, const QString& text) {
                         error ? theme().failed : theme().stale)
                        .pixmap(QSize(16, 16), devicePixelRatioF()));
   text_->setText(text);
+  fix_->hide();
+  run_ = {};
   QWidget::show();
+  adjustSize();
+}
+
+void MessageBar::offer(const QString& label, std::function<void()> fix) {
+  fix_->setText(label);
+  fix_->show();
+  run_ = std::move(fix);
   adjustSize();
 }
 

@@ -5,7 +5,10 @@
 
 #include <QFrame>
 
+#include <functional>
+
 class QLabel;
+class QPushButton;
 
 namespace prt::ui {
 
@@ -14,11 +17,15 @@ class MessageBar : public QFrame {
  public:
   explicit MessageBar(QWidget* parent = nullptr);
   void show(Severity severity, const QString& text);
+  /// Adds the fix as a button to what is shown; the bar goes away when it is pressed.
+  void offer(const QString& label, std::function<void()> fix);
   QString text() const;
 
  private:
   QLabel* icon_;
   QLabel* text_;
+  QPushButton* fix_;
+  std::function<void()> run_;
 };
 
 }  // namespace prt::ui

@@ -183,7 +183,7 @@ QWidget* PropertyRow::makeNumber() {
     connect(field, &NumberField::edited, this,
             [this](double value) { apply(QString::number(qint64(value))); });
   }
-  connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(title_); });
+  connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_)); });
   connect(field, &NumberField::gestureEnded, this, [this] { document_.endGesture(); });
   connect(field, &NumberField::resetRequested, this, &PropertyRow::reset);
   show_ = [this, field] { field->setValue(valueText().toDouble()); };
@@ -195,7 +195,8 @@ QWidget* PropertyRow::makeColor() {
   connect(field, &ColorField::edited, this, [this](const Rgb& c) {
     apply(jsonText(nlohmann::json{c.x, c.y, c.z}));
   });
-  connect(field, &ColorField::gestureBegan, this, [this] { document_.beginGesture(title_); });
+  connect(field, &ColorField::gestureBegan, this,
+          [this] { document_.beginGesture(editName(document_.recipe(), path_)); });
   connect(field, &ColorField::gestureEnded, this, [this] { document_.endGesture(); });
   show_ = [this, field] {
     const nlohmann::json value = nlohmann::json::parse(valueText().toStdString());
