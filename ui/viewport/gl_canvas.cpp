@@ -180,7 +180,8 @@ void GlCanvas::drawScene() {
   picture.height = qRound(height() * devicePixelRatioF());
   picture.samples = inPasses_ ? 1 : kSamples;
   picture.pass = inPasses_ ? std::min(pass_, kPasses - 1) : 0;
-  const bool environment = context_.view.background() == BackgroundMode::Environment;
+  // The renderer keeps the last map that it was given, also when the recipe has none any more.
+  const bool environment = context_.view.background() == BackgroundMode::Environment && context_.relighter.environment();
   picture.background = environment ? gl::Background::Environment : gl::Background::Black;
   picture.behind = kPlainBackground;
   picture.environmentRotation = context_.relighter.rig().rotation;

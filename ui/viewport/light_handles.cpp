@@ -252,6 +252,16 @@ void LightHandles::cancel() {
   if (std::exchange(held_, {}).part != Part::None) lights_.cancelDrag();
 }
 
+bool LightHandles::keyPress(int key) {
+  if (key != Qt::Key_Delete && key != Qt::Key_Backspace) return false;
+  for (const LightMark& mark : lights_.marks()) {
+    if (!mark.selected) continue;
+    lights_.remove(mark.light);
+    return true;
+  }
+  return false;
+}
+
 QCursor LightHandles::cursor() const {
   const Part part = held_.part != Part::None ? held_.part : hovered_.part;
   return part == Part::Rim ? Qt::SizeFDiagCursor : Qt::SizeAllCursor;

@@ -42,6 +42,7 @@ class LightHandles : public Manipulator {
   void move(const QPointF& at, Qt::KeyboardModifiers modifiers, const ViewGeometry& view) override;
   void release(const QPointF& at, const ViewGeometry& view) override;
   void cancel() override;
+  bool keyPress(int key) override;
   QCursor cursor() const override;
   QString hint() const override;
   QList<Binding> bindings() const override;

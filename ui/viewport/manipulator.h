@@ -41,6 +41,9 @@ class Manipulator : public QObject {
   /// Double click of the left button; true when it meant something here.
   virtual bool doubleClick(const QPointF&, const ViewGeometry&) { return false; }
 
+  /// A key (Qt::Key) while the viewport has the focus; true when it meant something here.
+  virtual bool keyPress(int) { return false; }
+
   /// For what is hovered or dragged.
   virtual QCursor cursor() const = 0;
   /// What the mouse does there, for the status bar; empty when nothing is hovered.

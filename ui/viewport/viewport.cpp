@@ -155,6 +155,8 @@ void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Escape && held_) return letGo(false);
+  for (Manipulator* each : manipulators_)
+    if (!held_ && each->enabled() && each->keyPress(event->key())) return;
   QWidget::keyPressEvent(event);
 }
 
