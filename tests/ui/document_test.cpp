@@ -15,10 +15,10 @@ TEST(Document, UndoIsThePreviousRecipeUnderItsName) {
   const Recipe first = document.recipe();
   document.set(s("transfer.bands"), s("4"));
   document.set(s("material.exponent"), s("100"));
-  EXPECT_EQ(document.undoName(), s("Exponent"));
+  EXPECT_EQ(document.undoName(), s("Exponent of object"));
   document.undo();
   EXPECT_EQ(document.undoName(), s("Bands"));
-  EXPECT_EQ(document.redoName(), s("Exponent"));
+  EXPECT_EQ(document.redoName(), s("Exponent of object"));
   document.undo();
   EXPECT_EQ(document.recipe(), first);
   EXPECT_FALSE(document.canUndo());

@@ -65,7 +65,7 @@ TEST(PropertyRow, DraggingTheFieldScrubsAsOneStep) {
   bench.drag(bench.fieldCenter(), 60);
   const float exponent = bench.document.recipe().objects[0].material.exponent;
   EXPECT_GT(exponent, 60) << "a logarithmic range moves by factors";
-  EXPECT_EQ(bench.document.undoName(), s("Exponent"));
+  EXPECT_EQ(bench.document.undoName(), s("Exponent of object"));
   bench.document.undo();
   EXPECT_FALSE(bench.document.canUndo()) << "one drag, one step";
   EXPECT_EQ(bench.number().value(), 32);
@@ -189,7 +189,7 @@ TEST(PropertyRow, ChoicesTogglesAndColoursEditTheRecipe) {
   const Rgb picked = albedo.document.recipe().objects[0].material.albedo;
   EXPECT_NE(picked, Material{}.albedo);
   EXPECT_GT(std::max({picked.x, picked.y, picked.z}), 0.6f) << "the upper right is bright and strong";
-  EXPECT_EQ(albedo.document.undoName(), s("Albedo"));
+  EXPECT_EQ(albedo.document.undoName(), s("Albedo of object"));
 }
 
 TEST(PropertyRow, TheTooltipSaysWhatItIsAndWhatAChangeCosts) {

@@ -60,10 +60,10 @@ void Document::edit(const QString& name, const Recipe& next) {
   Q_EMIT stateChanged();
 }
 
-void Document::set(const QString& path, const QString& value) {
+void Document::set(const QString& path, const QString& value, const QString& title) {
   Recipe next = recipe_;
   setByPath(next, path.toStdString(), value.toStdString());
-  edit(editName(next, path), next);
+  edit(editName(next, path, title), next);
 }
 
 void Document::beginGesture(const QString& name) {
@@ -165,8 +165,8 @@ QString parameterTitle(const QString& path) {
   return spaced;
 }
 
-QString editName(const Recipe& recipe, const QString& path) {
-  const QString title = parameterTitle(path);
+QString editName(const Recipe& recipe, const QString& path, const QString& called) {
+  const QString title = called.isEmpty() ? parameterTitle(path) : called;
   const auto named = [&](const auto& list, const char* array, const QString& kind) -> QString {
     const QString head = QLatin1String(array) + u'[';
     if (!path.startsWith(head)) return {};
@@ -178,7 +178,7 @@ QString editName(const Recipe& recipe, const QString& path) {
   };
   for (const char* shortForm : {"mesh", "transform", "material"})
     if (path.section(u'.', 0, 0) == QLatin1String(shortForm))
-      return editName(recipe, QStringLiteral("objects[0].") + path);
+      return editName(recipe, QStringLiteral("objects[0].") + path, called);
   for (const QString& name : {named(recipe.objects, "objects", QObject::tr("object")),
                               named(recipe.lights, "lights", QObject::tr("light")),
                               named(recipe.cameras, "cameras", QObject::tr("camera"))})

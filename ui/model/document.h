@@ -49,7 +49,8 @@ class Document : public QObject {
   void edit(const QString& name, const Recipe& next);
   /// Sets one value by its path in the recipe ("material.exponent"). Throws ValueError, and leaves
   /// everything as it was, when the path or the value is not valid.
-  void set(const QString& path, const QString& value);
+  /// `title`: what a row calls the value, where that is not its parameterTitle().
+  void set(const QString& path, const QString& value, const QString& title = {});
 
   /// Everything edited between the two is one step of undo (a drag, a scrub). They nest.
   void beginGesture(const QString& name);
@@ -113,7 +114,8 @@ class Gesture {
 /// A parameter's name for people: "transfer.bands" -> "Bands".
 QString parameterTitle(const QString& path);
 /// What an edit of it is called, with what it belongs to: "Exponent of vase", "Angle of sun", "Bands".
-QString editName(const Recipe& recipe, const QString& path);
+/// `title` stands for the parameter where it is not empty.
+QString editName(const Recipe& recipe, const QString& path, const QString& title = {});
 /// Memory that a recipe takes.
 std::size_t bytesOf(const Recipe& recipe);
 

@@ -116,7 +116,7 @@ void ParameterSlider::paintEvent(QPaintEvent*) {
 void ParameterSlider::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
   dragging_ = true;
-  document_.beginGesture(parameterTitle(path_));
+  document_.beginGesture(editName(document_.recipe(), path_));
   change(valueAt(event->position().x()));
 }
 

@@ -136,7 +136,7 @@ bool PropertyRow::isDefault() const {
 
 void PropertyRow::apply(const QString& value) {
   try {
-    document_.set(path_, value);
+    document_.set(path_, value, title_);
   } catch (const Error& error) {
     refresh();
     QToolTip::showText(editor_->mapToGlobal(QPoint(0, editor_->height())), QString::fromUtf8(error.what()),
@@ -183,7 +183,7 @@ QWidget* PropertyRow::makeNumber() {
     connect(field, &NumberField::edited, this,
             [this](double value) { apply(QString::number(qint64(value))); });
   }
-  connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_)); });
+  connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &NumberField::gestureEnded, this, [this] { document_.endGesture(); });
   connect(field, &NumberField::resetRequested, this, &PropertyRow::reset);
   show_ = [this, field] { field->setValue(valueText().toDouble()); };
@@ -196,7 +196,7 @@ QWidget* PropertyRow::makeColor() {
     apply(jsonText(nlohmann::json{c.x, c.y, c.z}));
   });
   connect(field, &ColorField::gestureBegan, this,
-          [this] { document_.beginGesture(editName(document_.recipe(), path_)); });
+          [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &ColorField::gestureEnded, this, [this] { document_.endGesture(); });
   show_ = [this, field] {
     const nlohmann::json value = nlohmann::json::parse(valueText().toStdString());
@@ -233,7 +233,7 @@ QWidget* PropertyRow::makeVector() {
   format.unit = parameter_.unit == "degrees" ? QStringLiteral("\u00b0") : QString();
   auto* field = new VectorField(format);
   connect(field, &VectorField::edited, this, [this](const Vec3& v) { apply(jsonText(nlohmann::json{v.x, v.y, v.z})); });
-  connect(field, &VectorField::gestureBegan, this, [this] { document_.beginGesture(title_); });
+  connect(field, &VectorField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &VectorField::gestureEnded, this, [this] { document_.endGesture(); });
   connect(field, &VectorField::resetRequested, this, &PropertyRow::reset);
   show_ = [this, field] {
