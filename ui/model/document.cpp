@@ -85,9 +85,9 @@ void Document::cancelGesture() {
   gestureDepth_ = 0;
   const Recipe before = std::move(*gestureStart_);
   gestureStart_.reset();
-  if (before == recipe_) return;
+  const bool changed = before != recipe_;
   recipe_ = before;
-  Q_EMIT recipeChanged();
+  if (changed) Q_EMIT recipeChanged();
   Q_EMIT stateChanged();
 }
 

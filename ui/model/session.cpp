@@ -156,7 +156,10 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
   };
   const auto finish = [this, result, light, loaded = std::move(loaded)](const JobInfo& job) {
     if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Light);
-    if (job.state != JobState::Done) return;
+    if (job.state != JobState::Done) {
+      if (skyJobKey_ == shownKey(light)) skyJobKey_.clear();  // a coarse sky still waits for its exact one
+      return;
+    }
     loaded();
     if (environmentShown_ != shownKey(light)) return;  // another one is wanted by now
     environmentExact_ = true;
