@@ -155,8 +155,11 @@ void KeysOverlay::fill(const QList<BindingGroup>& groups) {
 }
 
 QRect KeysOverlay::panelPlace(const QSize& window) const {
-  const int wanted = content_->sizeHint().height() + 24 * kGrid;
   const int width = std::min(2 * kColumnWidth + 20 * kGrid, window.width() - 2 * kMargin);
+  const QLayout& columns = *content_->layout();  // wraps its text
+  const int tall =
+      columns.hasHeightForWidth() ? columns.heightForWidth(width - 12 * kGrid) : columns.sizeHint().height();
+  const int wanted = tall + 24 * kGrid;
   const int height = std::min(wanted, window.height() - 2 * kMargin);
   return {(window.width() - width) / 2, (window.height() - height) / 2, width, height};
 }
