@@ -91,7 +91,7 @@ enum class TransferStorage { Auto, Float, Half };
 struct TransferRecipe {
   TransferKind kind = TransferKind::Auto;
   int bands = 5;
-  int rays = 1024;
+  int rays = 4096;
   int bounces = 3;
   bool shadows = true;
   float threshold = 0.001f;  ///< bounces end early when one adds less than this fraction

@@ -32,7 +32,7 @@ inline constexpr int kMaxRays = 1 << 20;
 
 struct DirectSettings {
   int bands = 5;            ///< of the light, 1..10
-  int rays = 1024;          ///< per sample, 1..kMaxRays
+  int rays = 4096;          ///< per sample, 1..kMaxRays
   bool visibility = false;  ///< also the visibility function, for glossy surfaces
   std::uint64_t seed = 1;
   /// Bytes that may be spent on remembering what rays hit, for bounces; 0 = none. It changes speed only:

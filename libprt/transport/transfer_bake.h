@@ -22,7 +22,7 @@ namespace prt {
 struct TransferSettings {
   std::optional<TransferForm> form;  ///< empty: the cheapest that holds what the materials need
   int bands = 5;                     ///< 1..10; n bands are n^2 functions of light
-  int rays = 1024;                   ///< per sample; the error falls about as rays^-0.75
+  int rays = 4096;                   ///< per sample; the error falls about as rays^-0.75
   int bounces = 3;                   ///< 0 = shadows only; at most kMaxBounces
   bool shadows = true;               ///< false = nothing is baked, light arrives unchanged
   float stopThreshold = 1e-3f;       ///< end when a bounce adds less than this share of what is there; 0 = never

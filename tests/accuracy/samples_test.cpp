@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <array>
 
 namespace prt {
 namespace {
@@ -20,19 +20,46 @@ constexpr double kBound = 0.003;
 const std::vector<std::string> kProbes{"uffizi_256.hdr", "stpeters_cross.hdr", "kloppenheim_05_1k.hdr",
                                        "rnl_probe.hdr"};
 
-/// Error of baked irradiance at `indices` (rows of `baked` are in that order).
-NoiseFreeError measure(const Model& model, const Light& light, const std::vector<Rgb>& baked,
-                       const std::vector<std::uint32_t>& indices, int bounces, int paths) {
+/// So many that what is left is no sampling noise: the default must hold the bound too.
+constexpr int kManyRays = 16384;
+
+/// Irradiance at `indices`, path traced twice.
+using References = std::array<std::vector<float>, 2>;
+References pathTraced(const Model& model, const Light& light, const std::vector<std::uint32_t>& indices,
+                      int bounces, int paths) {
   Job job;
   const PathTracer tracer(*model.scene, light.rig, job);
-  std::vector<float> references[2];
+  References references;
   for (std::uint64_t seed : {0, 1}) {
     PathOptions options;
     options.bounces = bounces, options.seed = 100 + seed;
     references[seed] =
         test::flatten(irradianceAtSamples(tracer, *model.samples, indices, paths, options, job).mean);
   }
-  return noiseFreeError(test::flatten(baked), references[0], references[1], 12);
+  return references;
+}
+
+TransferSettings settings(int bounces, int rays, std::uint64_t seed) {
+  TransferSettings s;
+  s.form = TransferForm::Diffuse, s.bounces = bounces, s.stopThreshold = 0;
+  s.rays = rays, s.seed = seed;
+  return s;
+}
+
+/// What bounces are gathered from: transfer at every vertex.
+Transfer coarseSurface(const Model& model, int bounces, int rays) {
+  Job job;
+  return bakeTransfer(model.scene, model.rays, model.samples, settings(bounces, rays, 2), job);
+}
+
+Transfer transferAt(const Model& model, const std::shared_ptr<const SampleSet>& some, int bounces, int rays,
+                    const Transfer* surface) {
+  Job job;
+  const TransferSettings s = settings(bounces, rays, 1);
+  DirectBake bake(model.scene, model.rays, some, directSettings(s, TransferForm::Diffuse));
+  while (!bake.done()) bake.advance(job);
+  return finishTransfer(*model.scene, *model.rays, *some, bake.product(job), s, TransferForm::Diffuse, job,
+                        surface);
 }
 
 struct Case {
@@ -52,28 +79,21 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
   const auto some = std::make_shared<SampleSet>(test::subset(*model.samples, indices));
 
   for (const int bounces : {0, 3}) {
-    TransferSettings settings;
-    settings.form = TransferForm::Diffuse, settings.bounces = bounces, settings.stopThreshold = 0;
-    settings.rays = 16384;
-    const DirectSettings direct = directSettings(settings, TransferForm::Diffuse);
-    DirectBake bake(model.scene, model.rays, some, direct);
-    while (!bake.done()) bake.advance(job);
-    Transfer surface;
-    if (bounces > 0) {
-      TransferSettings coarse = settings;
-      coarse.rays = GetParam().surfaceRays, coarse.seed = 2;
-      surface = bakeTransfer(model.scene, model.rays, model.samples, coarse, job);
-    }
-    const Transfer transfer = finishTransfer(*model.scene, *model.rays, *some, bake.product(job), settings,
-                                             TransferForm::Diffuse, job, bounces > 0 ? &surface : nullptr);
+    const Transfer surface = bounces > 0 ? coarseSurface(model, bounces, GetParam().surfaceRays) : Transfer{};
     for (const std::string& probe : kProbes) {
       if (!fullRun() && probe != kProbes[0] && probe != kProbes[2]) continue;
       const Light light = test::loadLight(probe);
-      const std::vector<Rgb> baked = irradiance(transfer, light.coefficients, some->shadingNormal);
-      const NoiseFreeError e = measure(model, light, baked, indices, bounces, fullRun() ? 4096 : 2048);
-      test::report(model.name + ", " + light.name + ", " + std::to_string(bounces) + " bounces, at samples",
-                   e);
-      EXPECT_LT(e.relative(), kBound) << model.name << " " << probe << " " << bounces;
+      const References truth = pathTraced(model, light, indices, bounces, fullRun() ? 4096 : 2048);
+      for (const int rays : {kManyRays, TransferSettings{}.rays}) {
+        const Transfer transfer = transferAt(model, some, bounces, rays, bounces > 0 ? &surface : nullptr);
+        const std::vector<float> baked =
+            test::flatten(irradiance(transfer, light.coefficients, some->shadingNormal));
+        const NoiseFreeError e = noiseFreeError(baked, truth[0], truth[1], 12);
+        test::report(model.name + ", " + light.name + ", " + std::to_string(bounces) + " bounces, " +
+                         std::to_string(rays) + " rays, at samples",
+                     e);
+        EXPECT_LT(e.relative(), kBound) << model.name << " " << probe << " " << bounces << " " << rays;
+      }
     }
   }
 }

@@ -2,8 +2,8 @@
 
 usage: blender -b --factory-startup --python-exit-code 1 -P render_cycles.py -- SCENE.json OUT.exr
 
-SCENE.json: {"arrays": DIR of positions/normals/faces.npy, "environment": lat-long EXR, "albedo": [r, g, b],
-             "camera": {"eye", "target", "up", "vfov_deg"}, "size": [w, h], "spp": N, "bounces": N}
+SCENE.json: {"arrays": DIR of positions, normals, faces, object and albedo .npy, "environment": lat-long EXR,
+             "camera": {"eye", "target", "up", "vfov_deg"}, "size": [w, h], "spp": N, "bounces": N, "seed": N}
 
 The shading model is matched to ours: smooth normals as exported, a Lambert surface, no terminator offset, `bounces`
 interreflections, a box pixel filter one pixel wide, alpha = coverage, linear Rec.709 floats out.
@@ -26,30 +26,36 @@ def to_blender(vectors):
     return np.asarray(vectors, dtype=np.float64) @ TO_BLENDER.T
 
 
-def add_mesh(directory, albedo):
-    positions = to_blender(np.load(os.path.join(directory, "positions.npy")))
-    normals = to_blender(np.load(os.path.join(directory, "normals.npy")))
-    faces = np.load(os.path.join(directory, "faces.npy"))
-    mesh = bpy.data.meshes.new("object")
-    mesh.from_pydata(positions.tolist(), [], faces.tolist())
-    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
-    mesh.use_auto_smooth = True  # custom normals are ignored without it
-    mesh.normals_split_custom_set_from_vertices(normals.tolist())
-    thing = bpy.data.objects.new("object", mesh)
-    thing.cycles.shadow_terminator_offset = 0.0
-    thing.cycles.shadow_terminator_geometry_offset = 0.0
-    bpy.context.scene.collection.objects.link(thing)
-
-    material = bpy.data.materials.new("lambert")
+def lambert(name, albedo):
+    material = bpy.data.materials.new(name)
     material.use_nodes = True
     nodes = material.node_tree.nodes
     nodes.clear()
     diffuse = nodes.new("ShaderNodeBsdfDiffuse")
-    diffuse.inputs["Color"].default_value = (*albedo, 1.0)
+    diffuse.inputs["Color"].default_value = (*(float(c) for c in albedo), 1.0)
     diffuse.inputs["Roughness"].default_value = 0.0
     output = nodes.new("ShaderNodeOutputMaterial")
     material.node_tree.links.new(diffuse.outputs["BSDF"], output.inputs["Surface"])
-    mesh.materials.append(material)
+    return material
+
+
+def add_mesh(directory):
+    """One mesh with a material per object."""
+    load = lambda name: np.load(os.path.join(directory, name + ".npy"))
+    positions, normals = to_blender(load("positions")), to_blender(load("normals"))
+    faces, objects, albedo = load("faces"), load("object").reshape(-1), load("albedo")
+    mesh = bpy.data.meshes.new("surface")
+    mesh.from_pydata(positions.tolist(), [], faces.tolist())
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
+    for index in range(objects.max() + 1):
+        mesh.materials.append(lambert(f"object {index}", albedo[np.argmax(objects == index)]))
+    mesh.polygons.foreach_set("material_index", objects[faces[:, 0]].tolist())
+    mesh.use_auto_smooth = True  # custom normals are ignored without it
+    mesh.normals_split_custom_set_from_vertices(normals.tolist())
+    thing = bpy.data.objects.new("surface", mesh)
+    thing.cycles.shadow_terminator_offset = 0.0
+    thing.cycles.shadow_terminator_geometry_offset = 0.0
+    bpy.context.scene.collection.objects.link(thing)
 
 
 def add_environment(path):
@@ -87,13 +93,14 @@ def add_camera(view, size):
     scene.render.resolution_percentage = 100
 
 
-def configure(spp, bounces):
+def configure(spp, bounces, seed):
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.render.film_transparent = True
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.samples = spp
+    cycles.seed = seed
     cycles.use_adaptive_sampling = False
     cycles.use_denoising = False
     cycles.max_bounces = bounces
@@ -108,10 +115,10 @@ def main(scene_path, out_path):
         task = json.load(file)
     for thing in list(bpy.data.objects):
         bpy.data.objects.remove(thing)
-    add_mesh(task["arrays"], task["albedo"])
+    add_mesh(task["arrays"])
     add_environment(task["environment"])
     add_camera(task["camera"], task["size"])
-    configure(task["spp"], task["bounces"])
+    configure(task["spp"], task["bounces"], task["seed"])
     settings = bpy.context.scene.render.image_settings
     settings.file_format, settings.color_mode, settings.color_depth = "OPEN_EXR", "RGBA", "32"
     settings.exr_codec = "ZIP"
