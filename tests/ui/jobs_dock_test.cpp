@@ -160,6 +160,8 @@ TEST_F(StudioTest, AFailedBakeIsTriedAgainFromTheDock) {
   ASSERT_TRUE(file.open(QIODevice::WriteOnly));
   file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   file.close();
+  window.bringToFront(s("jobs"));
+  test::pass(50);
   QAbstractButton* retry = nullptr;
   for (auto* each : window.findChildren<QAbstractButton*>(s("retryJob")))
     if (each->isVisible()) retry = each;

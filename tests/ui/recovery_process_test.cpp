@@ -5,6 +5,9 @@
 #include "tests/ui/studio_process.h"
 #include "ui/model/recovery.h"
 
+#include <QImage>
+#include <QStandardPaths>
+
 #include <random>
 
 namespace prt::ui {

@@ -11,10 +11,12 @@
 
 #include <QAbstractButton>
 #include <QDir>
+#include <QDropEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPushButton>
 #include <QTimer>
 #include <QTreeWidget>
@@ -48,8 +50,7 @@ class Relink : public StudioTest {
     openAndSettle(recipe);
     session.save(path("a.prt"));
     ASSERT_TRUE(waitFor([this] { return !session.project().saving(); }));
-    session.openDefaultScene();
-    ASSERT_TRUE(waitFor([this] { return session.settled() && session.bakes().fresh(); }));
+    openAndSettle();
   }
   QAbstractButton* named(const char* name) {
     for (auto* each : window.findChildren<QAbstractButton*>(s(name)))
@@ -220,7 +221,7 @@ TEST_F(Relink, WhatACrashLeftIsOfferedAndRestored) {
   place->keep(entry, {});
   place.reset();
   window.offerRecovery();
-  pass(50);
+  test::pass(50);
   auto* bar = window.findChild<RecoveryBar*>();
   ASSERT_TRUE(bar && bar->isVisible());
   ASSERT_NE(named("openSaved"), nullptr);

@@ -183,7 +183,8 @@ QWidget* PropertyRow::makeNumber() {
     connect(field, &NumberField::edited, this,
             [this](double value) { apply(QString::number(qint64(value))); });
   }
-  connect(field, &NumberField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
+  connect(field, &NumberField::gestureBegan, this,
+          [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &NumberField::gestureEnded, this, [this] { document_.endGesture(); });
   connect(field, &NumberField::resetRequested, this, &PropertyRow::reset);
   show_ = [this, field] { field->setValue(valueText().toDouble()); };
@@ -233,7 +234,8 @@ QWidget* PropertyRow::makeVector() {
   format.unit = parameter_.unit == "degrees" ? QStringLiteral("\u00b0") : QString();
   auto* field = new VectorField(format);
   connect(field, &VectorField::edited, this, [this](const Vec3& v) { apply(jsonText(nlohmann::json{v.x, v.y, v.z})); });
-  connect(field, &VectorField::gestureBegan, this, [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
+  connect(field, &VectorField::gestureBegan, this,
+          [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &VectorField::gestureEnded, this, [this] { document_.endGesture(); });
   connect(field, &VectorField::resetRequested, this, &PropertyRow::reset);
   show_ = [this, field] {
