@@ -32,7 +32,7 @@ TEST_F(ViewportTest, ShowsTheSceneWithOpenGl) {
 
 TEST_F(ViewportTest, ATwoSidedMaterialIsDrawnWhileItIsBaked) {
   openAndSettle();
-  CpuCanvas cpu({session.relighter(), session.view(), [](QPainter&) {}}, nullptr);
+  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), [](QPainter&) {}}, nullptr);
   cpu.resize(64, 48);
   const auto samples = [this] { return session.relighter().samples()->size(); };
   const std::size_t oneSided = samples();

@@ -71,6 +71,7 @@ ErrorSection::ErrorSection(Session& session, QWidget* parent)
   judge_->addItems({tr("this light"), tr("any light")});
   measure_->setObjectName(QStringLiteral("measureErrors"));
   apply_->setObjectName(QStringLiteral("applySuggestion"));
+  apply_->setToolTip(tr("Makes the change that lowers the error most; one step of undo."));
   advice_->setObjectName(QStringLiteral("errorAdvice"));
   advice_->setWordWrap(true);
   add(fieldRow(tr("Overlay"), shown_,

@@ -17,15 +17,12 @@ QColor toQColor(const Rgb& c) {
   return QColor::fromRgbF(c.x, c.y, c.z);
 }
 
-// The words on the picture stand on a dark veil in either theme.
-const QColor kVeil(0x14, 0x14, 0x14, 200), kText(0xe4, 0xe4, 0xe4), kQuiet(0xa4, 0xa4, 0xa4);
-
 void paintScale(QPainter& painter, const QRect& bar, double end) {
   for (int x = 0; x < bar.width(); ++x) {
     painter.fillRect(bar.left() + x, bar.top(), 1, bar.height(),
                      toQColor(magnitudeColor(float(x) / float(bar.width() - 1))));
   }
-  painter.setPen(kQuiet);
+  painter.setPen(pictureTheme().muted);
   const QFontMetrics metrics = painter.fontMetrics();
   for (const double t : {0.0, 0.5, 1.0}) {
     const QString text =
@@ -49,10 +46,10 @@ void paintErrorLegend(QPainter& painter, const QSize& size, Session& session) {
             map ? 2 * kPadding + 4 * line + kBarHeight + 4 : 2 * kPadding + line);
   box.moveBottomRight(QPoint(size.width() - kMargin, size.height() - kMargin));
   painter.setPen(Qt::NoPen);
-  painter.setBrush(kVeil);
+  painter.setBrush(pictureVeil());
   painter.drawRoundedRect(box, 4, 4);
   QRect row(box.left() + kPadding, box.top() + kPadding, kBarWidth, line);
-  painter.setPen(kText);
+  painter.setPen(pictureTheme().text);
   if (!map) {
     painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter,
                      errors.measuring() ? QObject::tr("Measuring the error\u2026")
@@ -64,12 +61,12 @@ void paintErrorLegend(QPainter& painter, const QSize& size, Session& session) {
   row.translate(0, line);
   paintScale(painter, QRect(row.left(), row.top() + 2, kBarWidth, kBarHeight), errors.scaleEnd());
   row.translate(0, line + kBarHeight + 4);
-  painter.setPen(kText);
+  painter.setPen(pictureTheme().text);
   const QString between = errors.complete() ? percentText(map->rms.y) : QStringLiteral("\u2026");
   painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter,
                    QObject::tr("Over the surface: %1").arg(percentText(map->totalRms())));
   row.translate(0, line);
-  painter.setPen(kQuiet);
+  painter.setPen(pictureTheme().muted);
   painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter,
                    QObject::tr("noise %1 \u00b7 between vertices %2 \u00b7 bands %3")
                        .arg(percentText(map->rms.x), between, percentText(map->rms.z)));
