@@ -14,7 +14,7 @@ layout(std430, binding = 2) readonly buffer Positions { float positions[]; };  /
 layout(std430, binding = 4) readonly buffer Behind { uint behind[]; };         // sample on the vertex's back
 
 in vec3 vFront, vBehind;  // reflected beyond what the coefficients hold
-uniform vec3 eye;
+uniform vec4 viewer;  // where, w = 1; or in which direction, w = 0
 
 const uint kNone = 0xffffffffu;
 
@@ -77,7 +77,7 @@ void main() {
   FOR_EACH_FUNCTION(DIFFUSE)
   int table = int(material.specular.w);
   if (table >= 0) {
-    glossyResponse(table, normal, normalize(eye - vPosition), response);
+    glossyResponse(table, normal, normalize(viewer.xyz - viewer.w * vPosition), response);
 #define GLOSSY(i, l) exitGlossy += response[i] * COEFFICIENT(i);
     FOR_EACH_FUNCTION(GLOSSY)
   }

@@ -10,7 +10,8 @@ namespace prt::gl {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  throw ResourceError(what, "OpenGL without a display", "install libegl1 and libgl1-mesa-dri, or render with the CPU");
+  throw ResourceError(what, "OpenGL without a display",
+                      "install libegl1 and libgl1-mesa-dri, or render with the CPU");
 }
 
 EGLDisplay surfacelessDisplay() {
@@ -28,9 +29,15 @@ EGLContext createContext(EGLDisplay display) {
   const EGLint configWanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  if (!eglChooseConfig(display, configWanted, &config, 1, &count) || count == 0) config = nullptr;  // EGL_NO_CONFIG
-  const EGLint contextWanted[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  if (!eglChooseConfig(display, configWanted, &config, 1, &count) || count == 0)
+    config = nullptr;  // EGL_NO_CONFIG
+  const EGLint contextWanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                  4,
+                                  EGL_CONTEXT_MINOR_VERSION,
+                                  5,
+                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                  EGL_NONE};
   return eglCreateContext(display, config, EGL_NO_CONTEXT, contextWanted);
 }
 
@@ -67,6 +74,16 @@ std::string describeContext() {
   return text(GL_VERSION) + ", " + text(GL_RENDERER);
 }
 
-bool contextIsSufficient() { return epoxy_is_desktop_gl() && epoxy_gl_version() >= 45; }
+bool contextIsSoftware() {
+  const GLubyte* value = glGetString(GL_RENDERER);
+  const std::string renderer = value ? reinterpret_cast<const char*>(value) : "";
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR", "Software", "SwiftShader"})
+    if (renderer.find(name) != std::string::npos) return true;
+  return false;
+}
+
+bool contextIsSufficient() {
+  return epoxy_is_desktop_gl() && epoxy_gl_version() >= 45;
+}
 
 }  // namespace prt::gl

@@ -27,5 +27,7 @@ class HeadlessContext {
 std::string describeContext();
 /// True when the current context can run prt_gl: OpenGL 4.5 core or newer.
 bool contextIsSufficient();
+/// True when the CPU draws: Mesa's llvmpipe and softpipe, and others of their kind.
+bool contextIsSoftware();
 
 }  // namespace prt::gl

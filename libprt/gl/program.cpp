@@ -15,7 +15,8 @@ namespace {
 
 const ShaderSource& embedded(const std::string& name) {
   const auto& all = embeddedShaders();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const ShaderSource& s) { return s.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const ShaderSource& s) { return s.name == name; });
   if (found == all.end()) throw std::logic_error("no shader named " + name);
   return *found;
 }
@@ -25,7 +26,9 @@ std::string withPrelude(std::string text, const std::string& prelude) {
   return text.insert(text.find('\n') + 1, prelude);
 }
 
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+std::string firstLine(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
 
 // A compiled shader object, deleted with the scope; a linked program keeps what it needs.
 class Shader {
@@ -74,11 +77,13 @@ std::string readableLog(const std::string& log, const std::vector<std::string>& 
   return out;
 }
 
-Program Program::fromLibrary(const std::string& vertex, const std::string& fragment, const std::string& prelude) {
+Program Program::fromLibrary(const std::string& vertex, const std::string& fragment,
+                             const std::string& prelude) {
   return fromSources(embedded(vertex), embedded(fragment), prelude);
 }
 
-Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& prelude) {
+Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fragment,
+                             const std::string& prelude) {
   const Shader vertexShader(vertex, prelude), fragmentShader(fragment, prelude);
   Program program(glCreateProgram());
   glAttachShader(program.id_, vertexShader.id());
@@ -96,7 +101,9 @@ Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fra
   throw ResourceError(firstLine(log), vertex.name + " + " + fragment.name, "update the graphics driver");
 }
 
-void Program::use() const { glUseProgram(id_); }
+void Program::use() const {
+  glUseProgram(id_);
+}
 
 int Program::location(const char* name) {
   const auto found = locations_.find(std::string_view(name));
@@ -104,11 +111,20 @@ int Program::location(const char* name) {
   return locations_[name] = glGetUniformLocation(id_, name);
 }
 
-void Program::set(const char* name, int value) { glProgramUniform1i(id_, location(name), value); }
-void Program::set(const char* name, float value) { glProgramUniform1f(id_, location(name), value); }
-void Program::set(const char* name, const Vec2& value) { glProgramUniform2f(id_, location(name), value.x, value.y); }
+void Program::set(const char* name, int value) {
+  glProgramUniform1i(id_, location(name), value);
+}
+void Program::set(const char* name, float value) {
+  glProgramUniform1f(id_, location(name), value);
+}
+void Program::set(const char* name, const Vec2& value) {
+  glProgramUniform2f(id_, location(name), value.x, value.y);
+}
 void Program::set(const char* name, const Vec3& value) {
   glProgramUniform3f(id_, location(name), value.x, value.y, value.z);
+}
+void Program::set(const char* name, const Vec4& value) {
+  glProgramUniform4f(id_, location(name), value.x, value.y, value.z, value.w);
 }
 void Program::set(const char* name, const Mat3& value) {
   glProgramUniformMatrix3fv(id_, location(name), 1, GL_FALSE, glm::value_ptr(value));

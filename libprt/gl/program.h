@@ -27,8 +27,10 @@ class Program : public detail::Handle<detail::deleteProgram> {
   Program() = default;
   /// Compiles and links a vertex and a fragment shader of the library, by name, with `prelude` in front of
   /// both, behind their version. Throws ResourceError that names file and line when the driver refuses.
-  static Program fromLibrary(const std::string& vertex, const std::string& fragment, const std::string& prelude = {});
-  static Program fromSources(const ShaderSource& vertex, const ShaderSource& fragment, const std::string& prelude = {});
+  static Program fromLibrary(const std::string& vertex, const std::string& fragment,
+                             const std::string& prelude = {});
+  static Program fromSources(const ShaderSource& vertex, const ShaderSource& fragment,
+                             const std::string& prelude = {});
 
   void use() const;
   /// Uniforms by name; one that the compiler dropped is ignored.
@@ -36,6 +38,7 @@ class Program : public detail::Handle<detail::deleteProgram> {
   void set(const char* name, float value);
   void set(const char* name, const Vec2& value);
   void set(const char* name, const Vec3& value);
+  void set(const char* name, const Vec4& value);
   void set(const char* name, const Mat3& value);
   void set(const char* name, const Mat4& value);
   void set(const char* name, std::span<const Vec2> values);

@@ -4,6 +4,7 @@
 #include "libprt/gl/sh_glsl.h"
 #include "libprt/light/resample.h"
 #include "libprt/material/glossy_response.h"
+#include "libprt/shade/ground_grid.h"
 #include "libprt/transport/sample_set.h"
 
 #include <epoxy/gl.h>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr unsigned kMaterialBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kRadianceBinding = 3,
                    kBehindBinding = 4, kResponseBinding = 5;
-constexpr int kEnvironmentUnit = 0, kManySamplesUnit = 1, kOneSampleUnit = 2;
+constexpr int kEnvironmentUnit = 0, kManySamplesUnit = 1, kOneSampleUnit = 2, kManyDepthsUnit = 3,
+              kOneDepthUnit = 4;
 constexpr int kResponseRows = 512;  // view angles in a table of responses
 constexpr int kMaxBands = 10;
 constexpr int kLatLongWidth = 2048;  // of environments that come in another mapping
@@ -33,15 +35,18 @@ struct GpuMaterial {
 Vec2 depthRange(const Camera& camera, const Box3& box) {
   const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
   const Vec3 forward = camera.target - camera.eye;
-  const float middle = dot(box.center() - camera.eye, length(forward) > 0 ? normalize(forward) : Vec3(0, 0, -1));
+  const float middle =
+      dot(box.center() - camera.eye, length(forward) > 0 ? normalize(forward) : Vec3(0, 0, -1));
+  if (camera.orthographic) return {middle - 1.01f * radius, middle + 1.01f * radius};
   const float farPlane = std::max(middle + 1.01f * radius, 2e-3f * radius);
   return {std::max(middle - 1.01f * radius, 1e-3f * radius), farPlane};
 }
 
 void expectSamples(std::size_t given, std::size_t wanted) {
   if (given == wanted) return;
-  throw ValueError("light of " + std::to_string(given) + " values for a scene that takes " + std::to_string(wanted),
-                   "GL renderer", "set the scene first");
+  throw ValueError(
+      "light of " + std::to_string(given) + " values for a scene that takes " + std::to_string(wanted),
+      "GL renderer", "set the scene first");
 }
 
 // View angle of a table's row; denser towards the horizon, as response.glsl looks them up.
@@ -56,9 +61,12 @@ void appendResponse(const GlossyResponse& response, std::vector<std::uint32_t>& 
   std::vector<float> weights(std::size_t(shCount(bands)));
   for (int row = 0; row < kResponseRows; ++row) {
     response.weightsAt(responseAngle(row), weights);
-    const auto weight = [&](int lobe, int l) { return l < bands ? weights[std::size_t(l * bands + lobe)] : 0.0f; };
+    const auto weight = [&](int lobe, int l) {
+      return l < bands ? weights[std::size_t(l * bands + lobe)] : 0.0f;
+    };
     for (int lobe = 0; lobe < bands; ++lobe)
-      for (int l = 0; l < bands; l += 2) tables.push_back(glm::packHalf2x16(Vec2(weight(lobe, l), weight(lobe, l + 1))));
+      for (int l = 0; l < bands; l += 2)
+        tables.push_back(glm::packHalf2x16(Vec2(weight(lobe, l), weight(lobe, l + 1))));
   }
 }
 
@@ -103,16 +111,20 @@ SceneRenderer::SceneRenderer()
       meanProgram_(Program::fromLibrary("fullscreen.vert", "mean.frag")),
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
-  for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_,
-                         &materialBuffer_, &radianceBuffer_, &backSamples_, &responses_})
+  for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_, &materialBuffer_,
+                         &radianceBuffer_, &backSamples_, &responses_})
     *buffer = Buffer::create();
-  radianceBuffer_.upload(std::span<const Rgb>(), sizeof(Vec4));  // bound even where the shader does not read it
+  radianceBuffer_.upload(std::span<const Rgb>(),
+                         sizeof(Vec4));  // bound even where the shader does not read it
   backgroundProgram_.set("environment", kEnvironmentUnit);
   toneProgram_.set("manySamples", kManySamplesUnit);
   toneProgram_.set("oneSample", kOneSampleUnit);
+  toneProgram_.set("manyDepths", kManyDepthsUnit);
+  toneProgram_.set("oneDepth", kOneDepthUnit);
   meanProgram_.set("sum", kOneSampleUnit);
   // The default number of bands; others are compiled when light in them is set.
-  for (const Light light : {Light::Interpolated, Light::Fetched, Light::Everywhere}) radianceProgram(light, bands_);
+  for (const Light light : {Light::Interpolated, Light::Fetched, Light::Everywhere})
+    radianceProgram(light, bands_);
   checkErrors("start of the GL renderer");
 }
 
@@ -156,9 +168,11 @@ void SceneRenderer::setLight(const SurfaceLight& light) {
       everywhere.c = light.radiance;
       return setLight(everywhere);
     }
-    case TransferForm::Diffuse: return setIrradiance(light.irradiance);
+    case TransferForm::Diffuse:
+      return setIrradiance(light.irradiance);
     case TransferForm::Visibility:
-    case TransferForm::Matrix: return setRadiance(light.bands, light.radiance, light.beyond);
+    case TransferForm::Matrix:
+      return setRadiance(light.bands, light.radiance, light.beyond);
   }
 }
 
@@ -173,7 +187,8 @@ void SceneRenderer::setRadiance(int bands, std::span<const Rgb> coefficients, st
   if (!beyond.empty()) expectSamples(beyond.size(), sampleCount_);
   useRadiance(!twoSided_ && fitsBetweenStages(bands) ? Light::Interpolated : Light::Fetched, bands);
   radianceBuffer_.upload(coefficients, sizeof(Vec4));
-  uploadSides(beyond.empty() ? std::vector<Rgb>(sampleCount_, Rgb(0)) : std::vector<Rgb>(beyond.begin(), beyond.end()));
+  uploadSides(beyond.empty() ? std::vector<Rgb>(sampleCount_, Rgb(0))
+                             : std::vector<Rgb>(beyond.begin(), beyond.end()));
 }
 
 // One colour per sample as two per vertex: for its front and its back.
@@ -193,14 +208,16 @@ void SceneRenderer::setLight(const ShRgb& light) {
 
 void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
   const bool latLong = map.report().mapping == EnvironmentMapping::LatLong;
-  environment_ = Texture::fromImage(
-      latLong ? map.pixels() : toLatLong(map, kLatLongWidth, kLatLongWidth / 2).pixels(), Wrap::RepeatX, false);
+  environment_ =
+      Texture::fromImage(latLong ? map.pixels() : toLatLong(map, kLatLongWidth, kLatLongWidth / 2).pixels(),
+                         Wrap::RepeatX, false);
   checkErrors("upload of the environment");
 }
 
 void SceneRenderer::useRadiance(Light light, int bands) {
   if (bands < 1 || bands > kMaxBands)
-    throw ValueError(std::to_string(bands) + " bands", "GL renderer", "use 1 to " + std::to_string(kMaxBands) + " bands");
+    throw ValueError(std::to_string(bands) + " bands", "GL renderer",
+                     "use 1 to " + std::to_string(kMaxBands) + " bands");
   radianceProgram(light, bands);
   light_ = light;
   if (bands == bands_) return;
@@ -281,6 +298,18 @@ void SceneRenderer::drawToned(const Picture& picture, int samples) {
   toneProgram_.set("exposure", picture.tone.exposure);
   toneProgram_.set("filmic", picture.tone.curve == ToneCurve::Filmic ? 1 : 0);
   toneProgram_.set("behind", picture.behind);
+  toneProgram_.set("gridSpacing", picture.gridSpacing);
+  if (picture.gridSpacing > 0) {
+    radiance_.depth().bind(samples > 1 ? kManyDepthsUnit : kOneDepthUnit);
+    const GridRays rays(picture.camera, picture.width, picture.height);
+    const Vec3 origin[] = {rays.origin, rays.originRight, rays.originDown},
+               direction[] = {rays.direction, rays.directionRight, rays.directionDown};
+    const Vec2 shift = passShift(picture.pass);
+    toneProgram_.set("gridParallel", picture.camera.orthographic ? 1 : 0);
+    toneProgram_.set("gridOrigin", std::span<const Vec3>(origin));
+    toneProgram_.set("gridDirection", std::span<const Vec3>(direction));
+    toneProgram_.set("place", Vec2(shift.x, float(picture.height) - shift.y));
+  }
   toneProgram_.use();
   glBindVertexArray(emptyArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -290,9 +319,10 @@ Image SceneRenderer::render(const Picture& picture) {
   const int samples = supportedSamples(picture.samples);
   drawRadiance(picture, PixelFormat::Rgba32f, samples);
   if (samples == 1) return radiance_.read();
-  const Framebuffer resolved = Framebuffer::create(picture.width, picture.height, PixelFormat::Rgba32f, false);
-  glBlitNamedFramebuffer(radiance_.id(), resolved.id(), 0, 0, picture.width, picture.height, 0, 0, picture.width,
-                         picture.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  const Framebuffer resolved =
+      Framebuffer::create(picture.width, picture.height, PixelFormat::Rgba32f, false);
+  glBlitNamedFramebuffer(radiance_.id(), resolved.id(), 0, 0, picture.width, picture.height, 0, 0,
+                         picture.width, picture.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   checkErrors("drawing");
   return resolved.read();
 }
@@ -328,10 +358,12 @@ void SceneRenderer::drawMesh(const Picture& picture) {
   const Vec2 depth = depthRange(picture.camera, bounds_);
   const float aspect = float(picture.width) / float(picture.height);
   Program& program = light_ == Light::Irradiance ? irradianceProgram_ : radianceProgram(light_, bands_);
-  program.set("worldToClip", shifted(picture) * picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
+  program.set("worldToClip",
+              shifted(picture) * picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
   materialBuffer_.bindStorage(kMaterialBinding);
   if (light_ != Light::Irradiance) {
-    program.set("eye", picture.camera.eye);
+    const Camera& camera = picture.camera;
+    program.set("viewer", camera.orthographic ? Vec4(camera.axes().normal, 0) : Vec4(camera.eye, 1));
     if (!lobes_.empty()) program.set("lobes", std::span<const Vec2>(lobes_));
     indices_.bindStorage(kCornerBinding);
     positions_.bindStorage(kPositionBinding);
@@ -346,16 +378,10 @@ void SceneRenderer::drawMesh(const Picture& picture) {
 
 // Behind everything: the triangle lies on the far plane and passes where nothing nearer was drawn.
 void SceneRenderer::drawBackground(const Picture& picture) {
-  const auto direction = [&](float x, float y) {
-    const Vec2 shift = passShift(picture.pass);
-    return picture.camera.direction(x * float(picture.width) + shift.x, y * float(picture.height) - shift.y, picture.width,
-                                    picture.height);
-  };
-  // Directions on the image plane, at distance 1 along the optical axis.
-  const Vec3 forward = direction(0.5f, 0.5f);
+  const CameraRays rays(picture.camera, picture.width, picture.height);
+  const Vec2 shift = passShift(picture.pass);
   const auto onPlane = [&](float x, float y) {
-    const Vec3 d = direction(x, y);
-    return d / dot(d, forward);
+    return rays.background(x * float(picture.width) + shift.x, y * float(picture.height) - shift.y);
   };
   const Vec3 corner = onPlane(0, 1);
   environment_.bind(kEnvironmentUnit);

@@ -36,11 +36,13 @@ struct Picture {
   /// the pixels and the mean of all so far is shown. Smooth edges where many samples at once are slow.
   int pass = 0;
   Background background = Background::Environment;
-  Rgb behind{0};  ///< of draw(): what is seen where alpha is 0, as the screen shows it
+  Rgb behind{0};                  ///< of draw(): what is seen where alpha is 0, as the screen shows it
   float environmentRotation = 0;  ///< radians, counter-clockwise seen from +Y
   float environmentIntensity = 1;
   bool smoothEnvironment = false;  ///< between texels; otherwise piecewise constant, as the map lights
   ToneSettings tone = {};          ///< of draw() and renderToned()
+  float gridSpacing =
+      0;  ///< of draw() and renderToned(): lines of the ground grid, see shade/ground_grid.h; 0: none
 };
 
 /// Where in its pixels a pass is taken: from the centre, in pixels right and up; pass 0 at the centre.

@@ -154,4 +154,35 @@ EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height) {
                         EnvironmentMapping::LatLong, map.report().source);
 }
 
+EnvironmentMap blurredLatLong(const EnvironmentMap& map, double deviation) {
+  constexpr int kWidth = 64, kHeight = 32;
+  const EnvironmentMap coarse = toLatLong(map, kWidth, kHeight);
+  struct Texel {
+    Vec3 direction;
+    float area;
+    Rgb radiance;
+  };
+  std::vector<Texel> texels;
+  coarse.forEachTexel([&](int, int, const DVec3& direction, double area, const Rgb& radiance) {
+    texels.push_back({Vec3(direction), float(area), radiance});
+  });
+  // On the sphere a Gaussian is exp((cos - 1) / deviation^2), von Mises and Fisher's.
+  const float sharpness = float(1 / (deviation * deviation));
+  Image image(kWidth, kHeight, 3);
+  Job job;
+  parallelFor(job, 0, texels.size(), kWidth, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Rgb sum(0);
+      float weights = 0;
+      for (const Texel& t : texels) {
+        const float w = t.area * std::exp(sharpness * (dot(t.direction, texels[i].direction) - 1));
+        sum += w * t.radiance;
+        weights += w;
+      }
+      for (int c = 0; c < 3; ++c) image.data[3 * i + std::size_t(c)] = sum[c] / weights;
+    }
+  });
+  return EnvironmentMap(image, EnvironmentMapping::LatLong, map.report().source);
+}
+
 }  // namespace prt

@@ -10,4 +10,9 @@ namespace prt {
 /// lat-long maps all overlaps of texels are exact; from other mappings they are measured at sample points.
 EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height);
 
+/// The map seen out of focus: each texel of a coarse lat-long map is the mean of all light, weighted with a
+/// Gaussian of this standard deviation (radians, at least 0.08) about its direction. To be shown between
+/// texels. A few milliseconds, and the time of toLatLong().
+EnvironmentMap blurredLatLong(const EnvironmentMap& map, double deviation);
+
 }  // namespace prt

@@ -15,7 +15,7 @@ Mat4 TransformRecipe::matrix() const {
   return glm::scale(m, scale);
 }
 
-Camera CameraRecipe::camera() const { return {eye, target, up, float(radians(verticalFov))}; }
+Camera CameraRecipe::camera() const { return {eye, target, up, float(radians(verticalFov)), orthographic}; }
 
 void checkRecipe(const Recipe& recipe, const std::string& where) {
   const auto at = [&](const std::string& path) { return where.empty() ? path : where + ": " + path; };

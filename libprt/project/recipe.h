@@ -80,6 +80,7 @@ struct CameraRecipe {
   Vec3 target{0};
   Vec3 up{0, 1, 0};
   float verticalFov = 30;  ///< degrees, full angle
+  bool orthographic = false;
 
   Camera camera() const;
   bool operator==(const CameraRecipe&) const = default;

@@ -135,6 +135,8 @@ const std::vector<Row<CameraRecipe>> kCamera{
      "Direction that points up in the picture."},
     {"vfov_deg", [](CameraRecipe& c) -> FieldRef { return &c.verticalFov; }, ParameterType::Number, "degrees", 1, 170,
      {}, "none", "Vertical field of view, full angle."},
+    {"orthographic", [](CameraRecipe& c) -> FieldRef { return &c.orthographic; }, ParameterType::Boolean, "", 0, 0, {}, "none",
+     "Parallel rays: the picture is as high as the field of view is at the target."},
 };
 
 const std::vector<Row<TransferRecipe>> kTransfer{

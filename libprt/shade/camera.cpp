@@ -26,6 +26,25 @@ Frame Camera::axes() const {
   return {right, cross(back, right), back};
 }
 
+float Camera::viewHeight() const {
+  return 2 * length(eye - target) * std::tan(0.5f * verticalFov);
+}
+
+Vec3 Camera::towardsViewer(const Vec3& position) const {
+  const Vec3 arm = eye - position;
+  const float distance = length(arm);
+  return !orthographic && distance > 0 ? arm / distance : axes().normal;
+}
+
+std::optional<Vec2> Camera::project(const Vec3& point, int width, int height) const {
+  const Vec3 local = axes().toLocal(point - eye);
+  const float reach = orthographic ? 0.5f * viewHeight()
+                                   : -local.z * std::tan(0.5f * verticalFov);  // half the picture, there
+  if (!(reach > 0)) return std::nullopt;
+  const float scale = 0.5f * float(height) / reach;
+  return Vec2(0.5f * float(width) + scale * local.x, 0.5f * float(height) - scale * local.y);
+}
+
 Vec3 Camera::direction(float x, float y, int width, int height) const {
   return CameraRays(*this, width, height).direction(x, y);
 }
@@ -42,11 +61,16 @@ Mat4 Camera::view() const {
 }
 
 Mat4 Camera::projection(float aspect, float nearPlane, float farPlane) const {
-  return glm::perspectiveRH_NO(verticalFov, aspect, nearPlane, farPlane);
+  if (!orthographic) return glm::perspectiveRH_NO(verticalFov, aspect, nearPlane, farPlane);
+  const float halfHeight = 0.5f * viewHeight(), halfWidth = aspect * halfHeight;
+  return glm::orthoRH_NO(-halfWidth, halfWidth, -halfHeight, halfHeight, nearPlane, farPlane);
 }
 
-CameraRays::CameraRays(const Camera& camera, int width, int height) {
+CameraRays::CameraRays(const Camera& camera, int width, int height)
+    : eye_(camera.eye), orthographic_(camera.orthographic) {
   const Frame f = camera.axes();
+  axis_ = f.normal;
+  spread_ = orthographic_ ? length(camera.eye - camera.target) : 0.0f;
   const float pixel = 2 * std::tan(0.5f * camera.verticalFov) / float(height);
   right_ = pixel * f.tangent;
   down_ = -pixel * f.bitangent;

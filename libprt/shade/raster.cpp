@@ -41,18 +41,17 @@ EdgeFunction edgeFunction(const SetupTriangle& t, int a, int b, std::int64_t px,
   return {std::int32_t(std::clamp(value, -kFar, kFar)), -dy, dx};
 }
 
-/// 1/w is linear on screen.
 struct DepthPlane {
   float value, stepX, stepY, low, high;
 };
 
 DepthPlane depthPlane(const SetupTriangle& t, std::int64_t px, std::int64_t py, double pitch) {
   const double x1 = t.x[1] - t.x[0], y1 = t.y[1] - t.y[0], x2 = t.x[2] - t.x[0], y2 = t.y[2] - t.y[0];
-  const double w1 = double(t.inverseW[1]) - t.inverseW[0], w2 = double(t.inverseW[2]) - t.inverseW[0];
+  const double w1 = double(t.nearness[1]) - t.nearness[0], w2 = double(t.nearness[2]) - t.nearness[0];
   const double scale = 1 / (x1 * y2 - x2 * y1);
   const double gx = (w1 * y2 - w2 * y1) * scale, gy = (w2 * x1 - w1 * x2) * scale;
-  const double value = t.inverseW[0] + gx * double(px - t.x[0]) + gy * double(py - t.y[0]);
-  const auto [low, high] = std::minmax({t.inverseW[0], t.inverseW[1], t.inverseW[2]});
+  const double value = t.nearness[0] + gx * double(px - t.x[0]) + gy * double(py - t.y[0]);
+  const auto [low, high] = std::minmax({t.nearness[0], t.nearness[1], t.nearness[2]});
   return {float(value), float(gx * pitch), float(gy * pitch), low, high};
 }
 
@@ -77,7 +76,7 @@ void drawSpan(const Span2& span, const std::array<EdgeFunction, 3>& e, const Dep
                  c = e[2].value + row * e[2].stepY;
     const float z0 = depth.value + float(row) * depth.stepY;
     std::uint32_t* ids = out.triangle.data() + std::size_t(y) * kTileSamples;
-    float* depths = out.inverseDepth.data() + std::size_t(y) * kTileSamples;
+    float* depths = out.nearness.data() + std::size_t(y) * kTileSamples;
     for (int x = span.x0; x <= span.x1; x += kLanes) {
       const float z1 = z0 + float(x - span.x0) * depth.stepX;
       for (int i = 0; i < kLanes; ++i) {
@@ -108,7 +107,7 @@ void drawTriangle(const SetupTriangle& t, int tileX, int tileY, int extentX, int
            depthPlane(t, px, py, double(1 << bits)), t.triangle, out);
 }
 
-/// Where the ray through the eye along `d` meets a triangle (Moeller and Trumbore 1997), clamped to
+/// Where the ray from `eye` along `d` meets a triangle (Moeller and Trumbore 1997), clamped to
 /// the triangle: snapping may put a sample a hair outside.
 Vec2 barycentricOf(const TriMesh& mesh, std::uint32_t triangle, const DVec3& eye, const DVec3& d,
                    bool& back) {
@@ -187,7 +186,7 @@ void Rasterizer::drawSamples(std::size_t tile, SampleTile& out) const {
   out.stride = kTileSamples;
   const int extentX = out.width * r.grid, extentY = out.height * r.grid;
   out.triangle.assign(std::size_t(extentY) * kTileSamples, kNoTriangle);
-  out.inverseDepth.assign(std::size_t(extentY) * kTileSamples, 0.0f);
+  out.nearness.assign(std::size_t(extentY) * kTileSamples, 0.0f);
   for (const raster::Chunk& chunk : r.bins.chunks)
     for (std::uint32_t i = chunk.first[tile]; i < chunk.first[tile + 1]; ++i)
       drawTriangle(chunk.triangles[chunk.items[i]], out.x * r.grid, out.y * r.grid, extentX, extentY,
@@ -201,8 +200,9 @@ Fragment Rasterizer::Impl::fragment(const Share& share, int pixelX, int pixelY) 
   Fragment f;
   f.triangle = share.triangle;
   f.samples = std::uint16_t(share.samples);
-  const DVec3 d(rays.through(float(pixelX) + dx, float(pixelY) + dy));
-  f.barycentric = barycentricOf(mesh, share.triangle, DVec3(camera.eye), d, f.back);
+  const float x = float(pixelX) + dx, y = float(pixelY) + dy;
+  const DVec3 d(rays.through(x, y));
+  f.barycentric = barycentricOf(mesh, share.triangle, DVec3(rays.origin(x, y)), d, f.back);
   return f;
 }
 

@@ -37,7 +37,9 @@ struct SampleTile {
   int width = 0, height = 0;            ///< in pixels
   int stride = 0;                       ///< samples from one row to the next
   std::vector<std::uint32_t> triangle;  ///< kNoTriangle where nothing is seen
-  std::vector<float> inverseDepth;      ///< 1 / distance along the optical axis; 0 where nothing is seen
+  /// Larger = nearer: 1 / distance along the optical axis, for parallel rays 2 (nearest) to 1; 0 where
+  /// nothing is seen.
+  std::vector<float> nearness;
 };
 
 /// Fragments of a rectangle of pixels.

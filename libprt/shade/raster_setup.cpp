@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace prt::raster {
 namespace {
@@ -36,17 +37,19 @@ Polygon clip(const Polygon& in, const Plane& plane) {
     const Homogeneous &inside = dp >= 0 ? p : q, &outside = dp >= 0 ? q : p;
     const double di = std::max(dp, dq), t = di / (di - std::min(dp, dq));
     out.add({inside.x + t * (outside.x - inside.x), inside.y + t * (outside.y - inside.y),
-             inside.w + t * (outside.w - inside.w)});
+             inside.w + t * (outside.w - inside.w),
+             inside.distance + t * (outside.distance - inside.distance)});
   }
   return out;
 }
 
 /// What the fixed-point numbers can hold: the image and as much again on every side.
 struct Limits {
-  double nearW;
   std::array<Plane, 5> planes;
+  double farthest = 0;   // distance; for parallel rays
+  double perLength = 0;  // nearness lost per distance there; 0: nearness is 1/w
 
-  Limits(const Projection& projection, double nearest) : nearW(nearest) {
+  Limits(const Projection& projection, double nearest) {
     const double x = projection.samplesX, y = projection.samplesY;
     planes = {Plane{0, 0, 1, -nearest}, {1, 0, x, 0}, {-1, 0, 2 * x, 0}, {0, 1, y, 0}, {0, -1, 2 * y, 0}};
   }
@@ -55,23 +58,27 @@ struct Limits {
       if (plane(p) < 0) return false;
     return true;
   }
+  /// Screen-linear, see SetupTriangle. Parallel rays: from 1, farthest, to 2.
+  float nearness(const Homogeneous& p) const {
+    return perLength > 0 ? float(1 + (farthest - p.distance) * perLength) : float(1 / p.w);
+  }
 };
 
 /// Snaps a triangle; adds it to the chunk unless it has no area left.
 void addTriangle(const Homogeneous& a, const Homogeneous& b, const Homogeneous& c, std::uint32_t id,
-                 double unit, Chunk& chunk) {
+                 const Limits& limits, double unit, Chunk& chunk) {
   SetupTriangle t;
   const Homogeneous* corner[3] = {&a, &b, &c};
   for (std::size_t i = 0; i < 3; ++i) {
     const double inverse = 1 / corner[i]->w;
     t.x[i] = std::int32_t(std::lrint(corner[i]->x * inverse * unit));
     t.y[i] = std::int32_t(std::lrint(corner[i]->y * inverse * unit));
-    t.inverseW[i] = float(inverse);
+    t.nearness[i] = limits.nearness(*corner[i]);
   }
   const std::int64_t area =
       std::int64_t(t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - std::int64_t(t.y[1] - t.y[0]) * (t.x[2] - t.x[0]);
   if (area == 0) return;
-  if (area < 0) std::swap(t.x[1], t.x[2]), std::swap(t.y[1], t.y[2]), std::swap(t.inverseW[1], t.inverseW[2]);
+  if (area < 0) std::swap(t.x[1], t.x[2]), std::swap(t.y[1], t.y[2]), std::swap(t.nearness[1], t.nearness[2]);
   t.triangle = id;
   chunk.triangles.push_back(t);
 }
@@ -82,7 +89,7 @@ void clipAndAdd(const std::array<Homogeneous, 3>& p, std::uint32_t id, const Lim
   for (const Homogeneous& v : p) polygon.add(v);
   for (const Plane& plane : limits.planes) polygon = clip(polygon, plane);
   for (std::size_t i = 2; i < std::size_t(polygon.count); ++i)
-    addTriangle(polygon.p[0], polygon.p[i - 1], polygon.p[i], id, unit, chunk);
+    addTriangle(polygon.p[0], polygon.p[i - 1], polygon.p[i], id, limits, unit, chunk);
 }
 
 /// Tiles that a triangle's covered samples lie in; empty when low > high.
@@ -123,11 +130,15 @@ void sortIntoTiles(Chunk& chunk, int bits, int tileSamples, int tilesX, int tile
 
 Projection::Projection(const Camera& camera, int width, int height) : samplesX(width), samplesY(height) {
   const Frame f = camera.axes();
-  const double focal = 0.5 * height / std::tan(0.5 * double(camera.verticalFov));
+  parallel = camera.orthographic;
   eye = DVec3(camera.eye);
   rowW = -DVec3(f.normal);
-  rowX = focal * DVec3(f.tangent) + 0.5 * width * rowW;
-  rowY = -focal * DVec3(f.bitangent) + 0.5 * height * rowW;
+  // Samples per length: at the target, or at distance 1.
+  const double focal = parallel ? height / double(camera.viewHeight())
+                                : 0.5 * height / std::tan(0.5 * double(camera.verticalFov));
+  rowX = focal * DVec3(f.tangent);
+  rowY = -focal * DVec3(f.bitangent);
+  if (!parallel) rowX += 0.5 * width * rowW, rowY += 0.5 * height * rowW;
   // Coordinates span three image sizes; edges must stay below 2^22 units for 32-bit stepping in a tile.
   const unsigned span = 3u * unsigned(std::max(width, height)) + 2u;
   bits = std::clamp(22 - int(std::bit_width(span)), 1, 8);
@@ -135,7 +146,9 @@ Projection::Projection(const Camera& camera, int width, int height) : samplesX(w
 
 Homogeneous Projection::operator()(const Vec3& p) const {
   const DVec3 d = DVec3(p) - eye;
-  return {dot(rowX, d), dot(rowY, d), dot(rowW, d)};
+  const double distance = dot(rowW, d);
+  if (parallel) return {dot(rowX, d) + 0.5 * samplesX, dot(rowY, d) + 0.5 * samplesY, 1, distance};
+  return {dot(rowX, d), dot(rowY, d), distance, distance};
 }
 
 Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSamples, int tilesX, int tilesY,
@@ -144,11 +157,15 @@ Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSam
   parallelFor(job, 0, projected.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) projected[i] = projection(mesh.positions[i]);
   });
-  double farthest = 0;
-  for (const Homogeneous& p : projected) farthest = std::max(farthest, p.w);
-  if (!(farthest > 0)) return {};  // everything is behind the camera
+  double farthest = -std::numeric_limits<double>::infinity(), nearest = -farthest;
+  for (const Homogeneous& p : projected)
+    farthest = std::max(farthest, p.distance), nearest = std::min(nearest, p.distance);
+  if (projected.empty() || (!projection.parallel && !(farthest > 0)))
+    return {};  // everything is behind the camera
 
-  const Limits limits(projection, 1e-9 * farthest);
+  Limits limits(projection, projection.parallel ? 0.5 : 1e-9 * farthest);
+  if (projection.parallel)
+    limits.farthest = farthest, limits.perLength = 1 / std::max(farthest - nearest, 1e-30);
   const double unit = double(1 << projection.bits);
   Bins bins;
   bins.chunks.resize((mesh.triangleCount() + kChunk - 1) / kChunk);
@@ -159,7 +176,7 @@ Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSam
       const UVec3& t = mesh.triangles[i];
       const std::array<Homogeneous, 3> p{projected[t.x], projected[t.y], projected[t.z]};
       if (limits.inside(p[0]) && limits.inside(p[1]) && limits.inside(p[2]))
-        addTriangle(p[0], p[1], p[2], std::uint32_t(i), unit, chunk);
+        addTriangle(p[0], p[1], p[2], std::uint32_t(i), limits, unit, chunk);
       else
         clipAndAdd(p, std::uint32_t(i), limits, unit, chunk);
     }

@@ -16,9 +16,11 @@ namespace prt::raster {
 /// Samples from one row of a tile to the next, and the most a tile is wide or high.
 inline constexpr int kTileSamples = 128;
 
-/// A point before the division: screen position in samples times w; w = distance along the axis.
+/// A point before the division: screen position in samples times w. w = distance along the axis; 1 for
+/// parallel rays, whose distance is kept apart.
 struct Homogeneous {
   double x = 0, y = 0, w = 0;
+  double distance = 0;
 };
 
 /// Camera to sample coordinates (y down), and how finely those are snapped.
@@ -28,6 +30,7 @@ struct Projection {
   Homogeneous operator()(const Vec3& p) const;
 
   DVec3 eye{0}, rowX{0}, rowY{0}, rowW{0};
+  bool parallel = false;
   int samplesX = 0, samplesY = 0;
   int bits = 8;  ///< fixed-point units in a sample: 2^bits
 };
@@ -35,7 +38,7 @@ struct Projection {
 /// A snapped triangle, turned so that its area is positive in sample coordinates.
 struct SetupTriangle {
   std::array<std::int32_t, 3> x, y;
-  std::array<float, 3> inverseW;
+  std::array<float, 3> nearness;  ///< linear on screen, larger = nearer, positive: 1/w
   std::uint32_t triangle;
 };
 

@@ -26,6 +26,9 @@ ReferenceImage::ReferenceImage(const PathTracer& tracer, const Camera& camera, i
   if (width < 1 || height < 1 || width > 65536 || height > 65536)
     throw ValueError("cannot draw " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
                      "path tracer", "use 1 to 65536 a side");
+  // Parallel rays see what is behind the eye too: they begin before the scene does.
+  if (const Box3 box = tracer.scene().mesh.bounds(); camera.orthographic && !box.empty())
+    behind_ = std::max(0.0f, dot(box.center() - camera.eye, camera.axes().normal) + 0.51f * box.diagonal());
   sums_.resize(std::size_t(width) * std::size_t(height));
 }
 
@@ -54,8 +57,11 @@ void ReferenceImage::tracePixel(int x, int y, int count, Sum& sum) const {
   for (int k = 0; k < count; ++k) {
     SobolStream stream(seed, std::uint32_t(samples_ + k));
     const Vec2 inside = stream.next2();
-    const Ray ray{camera_.eye, 0, rays_.direction(float(x) + inside.x, float(y) + inside.y)};
-    const PathSample path = tracer_.trace(ray, options_, stream);
+    const float px = float(x) + inside.x, py = float(y) + inside.y;
+    const Vec3 along = rays_.direction(px, py);
+    PathSample path = tracer_.trace({rays_.origin(px, py) - behind_ * along, 0, along}, options_, stream);
+    if (!path.hit && camera_.orthographic)
+      path.radiance = tracer_.lights().radiance(normalize(rays_.background(px, py)));
     const DVec3 value(path.radiance);
     sum.allSquares += value * value;
     if (path.hit)

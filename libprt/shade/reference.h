@@ -42,6 +42,7 @@ class ReferenceImage {
   const PathTracer& tracer_;
   Camera camera_;
   CameraRays rays_;
+  float behind_ = 0;  // distance from the camera's plane back to where rays begin
   PathOptions options_;
   int width_, height_, samples_ = 0;
   std::vector<Sum> sums_;

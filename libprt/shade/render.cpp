@@ -100,7 +100,7 @@ struct VertexIrradiance {
 struct PixelResponse {
   const RenderInput& input;
   const Needed& needed;
-  Vec3 eye;
+  const Camera& camera;
   bool glossy;
   int bands;
   SurfaceLight arriving;                               // by slot
@@ -131,9 +131,7 @@ struct PixelResponse {
     const Rgb rest = s.material->albedo * beyond(s);
     const std::uint32_t object = input.scene.triangleObject[f.triangle];
     if (glossy && glosses[object]) {
-      const Vec3 toEye = eye - interpolate(s, input.scene.mesh.positions);
-      const float distance = length(toEye);
-      const Vec3 view = distance > 0 ? toEye / distance : normal;
+      const Vec3 view = camera.towardsViewer(interpolate(s, input.scene.mesh.positions));
       return rest + exitRadiance(*s.material, &*glosses[object], normal, view, light);
     }
     return rest + s.material->albedo * lambertRadiance(bands, normal, light);
@@ -151,8 +149,8 @@ Rgb backgroundOf(const LightRig& rig, const CameraRays& rays, int x, int y, int 
   Rgb sum(0);
   for (int sy = 0; sy < grid; ++sy)
     for (int sx = 0; sx < grid; ++sx)
-      sum += radiance(rig, rays.direction(float(x) + (float(sx) + 0.5f) / float(grid),
-                                          float(y) + (float(sy) + 0.5f) / float(grid)));
+      sum += radiance(rig, normalize(rays.background(float(x) + (float(sx) + 0.5f) / float(grid),
+                                                     float(y) + (float(sy) + 0.5f) / float(grid))));
   return sum / float(grid * grid);
 }
 
@@ -208,7 +206,7 @@ void expectFit(const RenderInput& input) {
 
 PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera,
                             bool glossy) {
-  PixelResponse shader{input, needed, camera.eye, glossy, input.transfer.bands, {}, {}};
+  PixelResponse shader{input, needed, camera, glossy, input.transfer.bands, {}, {}};
   shader.arriving = surfaceLight(input.transfer, input.light, input.samples, needed.samples);
   shader.glosses.resize(input.scene.materials.size());
   for (std::size_t i = 0; glossy && i < shader.glosses.size(); ++i)

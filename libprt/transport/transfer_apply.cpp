@@ -41,15 +41,17 @@ std::vector<Rgb> fitted(const ShRgb& light, int bands) {
   return c;
 }
 
-inline Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
+inline Float8 load8(const float* p) {
+  return *reinterpret_cast<const Float8*>(p);
+}
 
 // ---- Matrix ----
 
-/// Runs of consecutive samples [first, first + count) that are wanted at `result`; the last matrix of the array is
-/// copied first, since the kernels read a little beyond what they use.
+/// Runs of consecutive samples [first, first + count) that are wanted at `result`; the last matrix of the
+/// array is copied first, since the kernels read a little beyond what they use.
 template <class T>
-void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t first, std::size_t count, const std::vector<Rgb>& light,
-                 Rgb* result) {
+void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t first, std::size_t count,
+                 const std::vector<Rgb>& light, Rgb* result) {
   const auto run = [&](const T* from, std::size_t samples, Rgb* to) {
     const MatrixProduct product{samples, layout.channels, layout.functions, &light[0].x, &to[0].x};
     wideKernelRuns() ? multiplyMatricesWide(from, product) : multiplyMatrices(from, product);
@@ -64,13 +66,19 @@ void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t firs
 }
 
 template <class T>
-void applyMatrix(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection, Rgb* result) {
-  const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels), std::size_t(transfer.functions())};
+void applyMatrix(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection,
+                 Rgb* result) {
+  const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels),
+                            std::size_t(transfer.functions())};
   const T* matrices = transfer.values.as<T>().data();
   Job job;
   parallelFor(job, 0, selection.size(), 256, [&](std::size_t begin, std::size_t end) {
-    if (!selection.list) return multiplyRun(layout, matrices, begin, end - begin, light, result + begin * layout.functions);
-    for (std::size_t i = begin; i < end; ++i) multiplyRun(layout, matrices, selection.at(i), 1, light, result + i * layout.functions);
+    if (!selection.list)
+      return multiplyRun(layout, matrices, begin, end - begin, light, result + begin * layout.functions);
+    for (std::size_t i = begin, count = 0; i < end; i += count) {
+      for (count = 1; i + count < end && selection.at(i + count) == selection.at(i) + count;) ++count;
+      multiplyRun(layout, matrices, selection.at(i), count, light, result + i * layout.functions);
+    }
   });
 }
 
@@ -83,9 +91,12 @@ struct VisibilityLight {
   std::vector<float> rows;
 
   VisibilityLight(int bands, const std::vector<Rgb>& light)
-      : wide(std::size_t(shCount(2 * bands - 1))), stride((std::size_t(shCount(bands)) * 3 + 7) / 8 * 8), rows(wide * stride, 0.0f) {
+      : wide(std::size_t(shCount(2 * bands - 1))),
+        stride((std::size_t(shCount(bands)) * 3 + 7) / 8 * 8),
+        rows(wide * stride, 0.0f) {
     for (const GauntTensor::Entry& g : gauntTensor(bands, bands, 2 * bands - 1).entries())
-      for (int c = 0; c < 3; ++c) rows[g.k * stride + std::size_t(g.i) * 3 + std::size_t(c)] += float(g.value) * light[g.j][c];
+      for (int c = 0; c < 3; ++c)
+        rows[g.k * stride + std::size_t(g.i) * 3 + std::size_t(c)] += float(g.value) * light[g.j][c];
   }
 };
 
@@ -114,7 +125,8 @@ const float* rowOf(const Array& array, std::size_t width, std::size_t sample, st
   return buffer.data();
 }
 
-void applyVisibility(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection, Rgb* result) {
+void applyVisibility(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection,
+                     Rgb* result) {
   const VisibilityLight matrix(transfer.bands, light);
   const auto functions = std::size_t(transfer.functions());
   Job job;
@@ -136,13 +148,16 @@ void apply(const Transfer& transfer, const ShRgb& light, const Selection& select
     case TransferForm::None:
       for (std::size_t i = 0; i < selection.size(); ++i) std::copy(c.begin(), c.end(), result + i * c.size());
       return;
-    case TransferForm::Visibility: return applyVisibility(transfer, c, selection, result);
+    case TransferForm::Visibility:
+      return applyVisibility(transfer, c, selection, result);
     case TransferForm::Matrix:
       return transfer.values.dtype == DType::f16 ? applyMatrix<std::uint16_t>(transfer, c, selection, result)
                                                  : applyMatrix<float>(transfer, c, selection, result);
-    case TransferForm::Diffuse: break;
+    case TransferForm::Diffuse:
+      break;
   }
-  throw ValueError("diffuse vectors hold no transferred radiance", "transfer", "bake the visibility or matrix form");
+  throw ValueError("diffuse vectors hold no transferred radiance", "transfer",
+                   "bake the visibility or matrix form");
 }
 
 /// Irradiance coefficients of light that nothing blocks: E(n) = sum of A_l L_lm Y_lm(n).
@@ -161,8 +176,8 @@ std::vector<Rgb> convolvedWithCosine(std::vector<Rgb> c, int bands) {
   return c;
 }
 
-std::vector<Rgb> unblockedIrradiance(const Transfer& transfer, const std::vector<Rgb>& light, std::span<const Vec3> normals,
-                                     const Selection& selection) {
+std::vector<Rgb> unblockedIrradiance(const Transfer& transfer, const std::vector<Rgb>& light,
+                                     std::span<const Vec3> normals, const Selection& selection) {
   const std::vector<Rgb> e = convolvedWithCosine(light, transfer.bands);
   std::vector<Rgb> result(selection.size());
   Job job;
@@ -179,7 +194,8 @@ std::vector<Rgb> unblockedIrradiance(const Transfer& transfer, const std::vector
 }
 
 /// Dot products of [S, n^2] or [S, n^2, 3] vectors with the light.
-std::vector<Rgb> dotProducts(const Array& vectors, int channels, const std::vector<Rgb>& light, const Selection& selection) {
+std::vector<Rgb> dotProducts(const Array& vectors, int channels, const std::vector<Rgb>& light,
+                             const Selection& selection) {
   const std::size_t width = light.size() * std::size_t(channels);
   std::vector<Rgb> result(selection.size());
   Job job;
@@ -191,7 +207,8 @@ std::vector<Rgb> dotProducts(const Array& vectors, int channels, const std::vect
       if (channels == 1)
         for (std::size_t k = 0; k < light.size(); ++k) sum += e[k] * light[k];
       else
-        for (std::size_t k = 0; k < light.size(); ++k) sum += Rgb(e[3 * k], e[3 * k + 1], e[3 * k + 2]) * light[k];
+        for (std::size_t k = 0; k < light.size(); ++k)
+          sum += Rgb(e[3 * k], e[3 * k + 1], e[3 * k + 2]) * light[k];
       result[i] = sum;
     }
   });
@@ -204,10 +221,12 @@ std::vector<Rgb> irradianceOf(const Transfer& transfer, const ShRgb& light, std:
   const std::vector<Rgb> c = fitted(light, transfer.bands);
   if (transfer.form == TransferForm::None) {
     if (normals.size() != transfer.samples)
-      throw ValueError("unshadowed irradiance needs a normal per sample", "transfer", "give [S] shading normals");
+      throw ValueError("unshadowed irradiance needs a normal per sample", "transfer",
+                       "give [S] shading normals");
     return unblockedIrradiance(transfer, c, normals, selection);
   }
-  return dotProducts(transfer.form == TransferForm::Diffuse ? transfer.values : transfer.diffuse, transfer.channels, c, selection);
+  return dotProducts(transfer.form == TransferForm::Diffuse ? transfer.values : transfer.diffuse,
+                     transfer.channels, c, selection);
 }
 
 }  // namespace
@@ -234,7 +253,8 @@ void transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span
   apply(transfer, light, {std::nullopt, transfer.samples}, result.data());
 }
 
-std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span<const std::uint32_t> samples) {
+std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light,
+                                     std::span<const std::uint32_t> samples) {
   std::vector<Rgb> result(samples.size() * std::size_t(transfer.functions()));
   apply(transfer, light, {samples, transfer.samples}, result.data());
   return result;

@@ -4,6 +4,7 @@
 #include "libprt/light/built_in_skies.h"
 #include "libprt/light/projection.h"
 #include "libprt/mesh/generate.h"
+#include "libprt/shade/live_renderer.h"
 #include "libprt/shade/render.h"
 #include "libprt/transport/transfer_bake.h"
 #include "tests/gl/gl_test_support.h"
@@ -38,11 +39,17 @@ TestScene makeTestScene(bool twoSided) {
     return m;
   };
   const Material clay{.albedo = Rgb(0.7f, 0.4f, 0.3f)};
-  const Material glossy{.model = MaterialModel::Phong, .albedo = Rgb(0.1f, 0.2f, 0.3f), .specular = Rgb(0.6f), .exponent = 40};
-  const Material sharp{.model = MaterialModel::Phong, .albedo = Rgb(0.2f), .specular = Rgb(0.3f, 0.5f, 0.2f), .exponent = 900, .twoSided = twoSided};
+  const Material glossy{
+      .model = MaterialModel::Phong, .albedo = Rgb(0.1f, 0.2f, 0.3f), .specular = Rgb(0.6f), .exponent = 40};
+  const Material sharp{.model = MaterialModel::Phong,
+                       .albedo = Rgb(0.2f),
+                       .specular = Rgb(0.3f, 0.5f, 0.2f),
+                       .exponent = 900,
+                       .twoSided = twoSided};
   const SceneObject objects[] = {
       {"vase", shared(makeVase({.segments = 24, .rings = 32})), placed(Vec3(-0.4f, 0, 0)), clay},
-      {"rock", shared(makeRock({.radius = 0.35f, .subdivisions = 3})), placed(Vec3(0.45f, 0.3f, 0.1f)), glossy},
+      {"rock", shared(makeRock({.radius = 0.35f, .subdivisions = 3})), placed(Vec3(0.45f, 0.3f, 0.1f)),
+       glossy},
       {"ground", shared(makePlane({.width = 4, .depth = 4, .columns = 12, .rows = 12})), Mat4(1), sharp}};
   TestScene s;
   s.scene = std::make_shared<Scene>(flattenScene(objects));
@@ -86,8 +93,13 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
   const ShRgb light = lightOf(s, rig, transfer.bands);
   const ToneSettings tone{.exposure = 0.3f, .curve = ToneCurve::Filmic};
   Job job;
-  const Image cpu = toDisplay(prt::render({.scene = *s.scene, .samples = *s.samples, .transfer = transfer, .light = light,
-                                           .background = &rig}, s.camera, kWidth, kHeight, 1, job), tone);
+  const Image cpu = toDisplay(prt::render({.scene = *s.scene,
+                                           .samples = *s.samples,
+                                           .transfer = transfer,
+                                           .light = light,
+                                           .background = &rig},
+                                          s.camera, kWidth, kHeight, 1, job),
+                              tone);
 
   static SceneRenderer renderer;
   renderer.setScene(*s.scene, s.samples->back);
@@ -112,7 +124,8 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
       worst = std::max(worst, difference);
     }
   EXPECT_GT(compared, kWidth * kHeight * 3 / 4);
-  EXPECT_GE(double(agreeing) / compared, kAgreeing) << what << ": worst difference " << worst * 255 << " / 255";
+  EXPECT_GE(double(agreeing) / compared, kAgreeing)
+      << what << ": worst difference " << worst * 255 << " / 255";
 }
 
 LightRig turned(const TestScene& s, float degreesOfRotation) {
@@ -144,6 +157,12 @@ TEST_F(AgreementTest, GlossyWithMatrices) {
   expectAgreement(s, bake(s, TransferForm::Matrix, 7, 0), turned(s, 10), "matrix of 7 bands");
 }
 
+TEST_F(AgreementTest, ParallelRays) {
+  TestScene s = twoSidedScene();
+  s.camera.orthographic = true;
+  expectAgreement(s, bake(s, TransferForm::Matrix, 5, 1), turned(s, 40), "matrix");
+}
+
 // Without back sides coefficients are interpolated on their way to the pixels, as long as they fit.
 TEST_F(AgreementTest, GlossyWithoutBackSides) {
   const TestScene& s = oneSidedScene();
@@ -151,6 +170,49 @@ TEST_F(AgreementTest, GlossyWithoutBackSides) {
   expectAgreement(s, bake(s, TransferForm::Matrix, 5, 1), turned(s, 20), "matrix");
   expectAgreement(s, bake(s, TransferForm::Matrix, 3, 0), turned(s, 170), "matrix of 3 bands");
   expectAgreement(s, bake(s, TransferForm::Visibility, 8, 0), turned(s, 0), "visibility of 8 bands");
+}
+
+// What the studio's two canvases show: grid and smooth background included.
+TEST_F(AgreementTest, LiveRendererWithBackgroundAndGrid) {
+  TestScene s = oneSidedScene();
+  const auto transfer = std::make_shared<const Transfer>(bake(s, TransferForm::Matrix, 5, 1));
+  const LightRig rig = turned(s, 70);
+  const ShRgb light = lightOf(s, rig, 5);
+  SceneRenderer gl;
+  gl.setScene(*s.scene);
+  gl.setEnvironment(*rig.environment);
+  gl.setLight(surfaceLight(*transfer, light, *s.samples));
+  LiveRenderer live;
+  for (const bool parallel : {false, true})
+    for (const bool plain : {false, true}) {
+      s.camera.orthographic = parallel;
+      Picture picture{.camera = s.camera, .width = kWidth, .height = kHeight, .samples = 1};
+      picture.background = plain ? Background::Black : Background::Environment;
+      picture.behind = Rgb(0.16f);
+      picture.environmentRotation = rig.rotation;
+      picture.environmentIntensity = rig.intensity;
+      picture.smoothEnvironment = true;
+      picture.gridSpacing = 0.1f;
+      const Image expected = gl.renderToned(picture);
+      LiveScene scene{
+          s.scene,      s.samples,    transfer, s.scene->materials, light, plain ? nullptr : rig.environment,
+          rig.rotation, rig.intensity};
+      std::vector<std::uint32_t> pixels(std::size_t(kWidth * kHeight));
+      Job job;
+      live.draw(
+          scene,
+          {.camera = s.camera, .width = kWidth, .height = kHeight, .behind = Rgb(0.16f), .gridSpacing = 0.1f},
+          pixels, job);
+      int differ = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          for (int c = 0; c < 3; ++c) {
+            const float value = float(pixels[std::size_t(y * kWidth + x)] >> (16 - 8 * c) & 255);
+            differ += std::abs(value - 255 * expected.pixel(x, y)[c]) > 2;
+          }
+      EXPECT_LT(differ, 3 * kWidth * kHeight / 100)
+          << (parallel ? "parallel" : "pinhole") << (plain ? ", plain" : ", environment");
+    }
 }
 
 }  // namespace

@@ -19,5 +19,10 @@ TEST_F(HeadlessContextTest, CanBeMadeAgainAndAgain) {
   }
 }
 
+TEST_F(HeadlessContextTest, TellsSoftwareFromCards) {
+  EXPECT_EQ(contextIsSoftware(), describeContext().find("llvmpipe") != std::string::npos ||
+                                     describeContext().find("softpipe") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace prt::gl

@@ -201,5 +201,19 @@ TEST(Environment, ToLatLongOfTheSameSizeChangesNothing) {
     EXPECT_NEAR(same.pixels().data[i], map.pixels().data[i], 1e-5f);
 }
 
+TEST(Environment, BlurringKeepsTheEnergyAndSpreadsWhatIsSharp) {
+  const EnvironmentMap white = blurredLatLong(
+      mapOf(MapGeometry(EnvironmentMapping::LatLong, 40, 20), [](const DVec3&) { return Rgb(1); }), 0.2);
+  for (const float value : white.pixels().data) EXPECT_NEAR(value, 1, 1e-5);
+  const EnvironmentMap lamp = mapOf(MapGeometry(EnvironmentMapping::LatLong, 256, 128),
+                                    [](const DVec3& d) { return d.x > 0.999 ? Rgb(100, 50, 10) : Rgb(0); });
+  const EnvironmentMap blurred = blurredLatLong(lamp, 0.2);
+  EXPECT_LT(length(test::energy(blurred) / test::energy(lamp) - DVec3(1)), 0.02);
+  // A Gaussian of this width about the lamp.
+  const float middle = blurred.radiance(Vec3(1, 0, 0)).x,
+              off = blurred.radiance(Vec3(std::cos(0.4f), std::sin(0.4f), 0)).x;
+  EXPECT_NEAR(off / middle, std::exp(-2.0f), 0.06f);
+}
+
 }  // namespace
 }  // namespace prt

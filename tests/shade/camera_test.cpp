@@ -33,7 +33,28 @@ TEST(Camera, MatricesAndRaysAgree) {
   for (const Vec2 pixel : {Vec2(3.5f, 7.25f), Vec2(60, 1), Vec2(31.5f, 47)}) {
     const Vec3 p = camera.eye + 2.5f * camera.direction(pixel.x, pixel.y, 64, 48);
     EXPECT_NEAR(length(project(camera, p, 64, 48) - pixel), 0, 1e-3);
+    EXPECT_NEAR(length(camera.project(p, 64, 48).value() - pixel), 0, 1e-3);
   }
+  EXPECT_FALSE(camera.project(camera.eye + camera.axes().normal, 64, 48)) << "behind the eye";
+}
+
+TEST(Camera, ParallelRaysShowAtTheTargetWhatThePinholeShowsThere) {
+  Camera camera;
+  camera.eye = {2, 1.5f, -1}, camera.target = {0.2f, 0, 0.3f};
+  const Vec3 point = camera.target + 0.3f * camera.axes().tangent - 0.2f * camera.axes().bitangent;
+  const Vec2 pinhole = project(camera, point, 64, 48);
+  camera.orthographic = true;
+  EXPECT_NEAR(length(project(camera, point, 64, 48) - pinhole), 0, 1e-3);
+  const CameraRays rays(camera, 64, 48);
+  for (const Vec2 pixel : {Vec2(3.5f, 7.25f), Vec2(60, 1)}) {
+    EXPECT_NEAR(length(rays.direction(pixel.x, pixel.y) + camera.axes().normal), 0, 1e-6);
+    for (const float distance : {-0.5f, 4.0f}) {
+      const Vec3 p = rays.origin(pixel.x, pixel.y) + distance * rays.through(pixel.x, pixel.y);
+      EXPECT_NEAR(length(project(camera, p, 64, 48) - pixel), 0, 1e-3);
+      EXPECT_NEAR(length(camera.project(p, 64, 48).value() - pixel), 0, 1e-3);
+    }
+  }
+  EXPECT_EQ(camera.towardsViewer({5, 6, 7}), camera.axes().normal);
 }
 
 TEST(Camera, DegenerateFieldsStillGiveAFrame) {

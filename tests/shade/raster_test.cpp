@@ -14,7 +14,7 @@ namespace {
 struct Samples {
   int width, height;
   std::vector<std::uint32_t> triangle;
-  std::vector<float> inverseDepth;
+  std::vector<float> nearness;
 };
 
 Samples drawAll(const TriMesh& mesh, const Camera& camera, int width, int height, int grid) {
@@ -22,7 +22,7 @@ Samples drawAll(const TriMesh& mesh, const Camera& camera, int width, int height
   const Rasterizer rasterizer(mesh, camera, width, height, grid, job);
   Samples all{width * grid, height * grid, {}, {}};
   all.triangle.resize(std::size_t(all.width * all.height));
-  all.inverseDepth.resize(all.triangle.size());
+  all.nearness.resize(all.triangle.size());
   SampleTile tile;
   for (std::size_t t = 0; t < rasterizer.tileCount(); ++t) {
     rasterizer.drawSamples(t, tile);
@@ -30,7 +30,7 @@ Samples drawAll(const TriMesh& mesh, const Camera& camera, int width, int height
       for (int x = 0; x < tile.width * grid; ++x) {
         const std::size_t to = std::size_t((tile.y * grid + y) * all.width + tile.x * grid + x);
         all.triangle[to] = tile.triangle[std::size_t(y * tile.stride + x)];
-        all.inverseDepth[to] = tile.inverseDepth[std::size_t(y * tile.stride + x)];
+        all.nearness[to] = tile.nearness[std::size_t(y * tile.stride + x)];
       }
   }
   return all;
@@ -59,14 +59,15 @@ void expectSameAsRays(const TriMesh& mesh, const Camera& camera, int width, int 
   double worstDepth = 0;
   for (int y = 0; y < drawn.height; ++y)
     for (int x = 0; x < drawn.width; ++x) {
-      const DVec3 d(rays.through((float(x) + 0.5f) / float(grid), (float(y) + 0.5f) / float(grid)));
+      const float px = (float(x) + 0.5f) / float(grid), py = (float(y) + 0.5f) / float(grid);
+      const DVec3 d(rays.through(px, py)), from(rays.origin(px, py));
       double nearest = 1e30;
       std::uint32_t id = kNoTriangle;
       bool nearEdge = false;
       for (std::size_t i = 0; i < mesh.triangleCount(); ++i) {
-        const RayHit h = meet(mesh, i, DVec3(camera.eye), d);
+        const RayHit h = meet(mesh, i, from, d);
         const double inside = std::min({h.b1, h.b2, 1 - h.b1 - h.b2});
-        if (!(h.t > 0) || !(inside > -margin)) continue;
+        if (!(h.t > (camera.orthographic ? -1e20 : 0)) || !(inside > -margin)) continue;
         if (inside < margin) nearEdge = true;
         if (inside >= 0 && h.t < nearest) nearest = h.t, id = std::uint32_t(i);
       }
@@ -74,8 +75,8 @@ void expectSameAsRays(const TriMesh& mesh, const Camera& camera, int width, int 
       const std::size_t at = std::size_t(y * drawn.width + x);
       ++compared;
       wrong += drawn.triangle[at] != id;
-      if (id != kNoTriangle && drawn.triangle[at] == id)
-        worstDepth = std::max(worstDepth, std::abs(drawn.inverseDepth[at] * nearest - 1));
+      if (id != kNoTriangle && drawn.triangle[at] == id && !camera.orthographic)
+        worstDepth = std::max(worstDepth, std::abs(drawn.nearness[at] * nearest - 1));
     }
   EXPECT_EQ(wrong, 0) << "of " << compared;
   EXPECT_GT(compared, drawn.width * drawn.height / 2);
@@ -93,6 +94,14 @@ TEST(Raster, SeesWhatRaysSeeFromInside) {
   camera.eye = {0.1f, 0.2f, 0.3f}, camera.target = {1, 0.4f, 0.2f};
   camera.verticalFov = float(radians(100));
   expectSameAsRays(test::blob(5, 6, 1.0f), camera, 60, 40, 1, 0.01);
+}
+
+TEST(Raster, SeesWhatParallelRaysSeeBehindTheEyeToo) {
+  Camera camera;
+  camera.orthographic = true;
+  camera.eye = {0.3f, 0.2f, 0.4f};  // inside
+  camera.verticalFov = float(radians(120));
+  expectSameAsRays(test::blob(12, 18, 0.9f, 0.3f), camera, 56, 48, 2, 0.02);
 }
 
 TEST(Raster, SeesWhatRaysSeeThroughAHugePlane) {

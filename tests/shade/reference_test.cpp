@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
+#include "libprt/shade/raster.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,34 @@ TEST(Reference, BackgroundShowsTheLightBehind) {
   EXPECT_NEAR(length(filled.rgb(0, 0) - Rgb(0.2f, 0.3f, 0.5f)), 0, 1e-6);
   EXPECT_EQ(filled.pixel(0, 0)[3], 1);
   EXPECT_EQ(plain.rgb(12, 10), filled.rgb(12, 10));
+}
+
+// The rasteriser covers what parallel rays meet, also what lies behind the eye; beside it is the pinhole's
+// background.
+TEST(Reference, ParallelRaysSeeWhatTheRasteriserSees) {
+  World s(skyWithDisc());
+  Camera camera;
+  camera.orthographic = true;
+  camera.eye = {0.1f, 0.2f, 0.5f};
+  camera.verticalFov = 2.6f;
+  ReferenceImage image(s.tracer, camera, 24, 20, {});
+  image.add(32, s.job);
+  const Image plain = image.radiance(), filled = image.radiance(true);
+  const FragmentImage seen = rasterize(s.scene.mesh, camera, 24, 20, 8, s.job);
+  double covered = 0;
+  for (const FragmentTile& tile : seen.tiles)
+    for (int i = 0; i < tile.width * tile.height; ++i) {
+      float part = 0;
+      for (const Fragment& f : tile.pixel(std::size_t(i))) part += float(f.samples) / 64;
+      const int x = tile.x + i % tile.width, y = tile.y + i / tile.width;
+      EXPECT_NEAR(plain.pixel(x, y)[3], part, 0.15) << x << " " << y;
+      covered += part;
+    }
+  EXPECT_GT(covered, 50);
+  EXPECT_LT(covered, 400);
+  EXPECT_NEAR(length(filled.rgb(0, 0) -
+                     radiance(skyWithDisc(), normalize(CameraRays(camera, 24, 20).background(0.5f, 0.5f)))),
+              0, 1e-3);
 }
 
 TEST(Reference, PortionsOfSamplesGiveTheSameBits) {

@@ -1,0 +1,127 @@
+#include "libprt/shade/live_view.h"
+
+#include "libprt/core/parallel.h"
+#include "libprt/shade/raster.h"
+
+#include <atomic>
+
+namespace prt {
+namespace {
+
+struct Maker {
+  const Scene& scene;
+  std::span<const std::uint32_t> back;
+  const std::vector<bool>& twoSided;
+  const Camera& camera;
+  Vec3 parallelView;
+  std::vector<std::uint8_t> used;  // [S]
+
+  /// The samples at a fragment's corners; false when nothing is reflected there.
+  bool samplesOf(const Fragment& f, std::array<std::uint32_t, 3>& samples) const {
+    if (f.back && !twoSided[scene.triangleObject[f.triangle]]) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = scene.mesh.triangles[f.triangle][int(i)];
+      samples[i] = !f.back ? v : v < back.size() ? back[v] : kNone;
+      if (samples[i] == kNone) return false;
+    }
+    return true;
+  }
+
+  void add(const Fragment& f, std::uint32_t pixel, float share, LiveTile& tile) {
+    std::array<std::uint32_t, 3> samples{};
+    if (!samplesOf(f, samples)) return;
+    for (const std::uint32_t s : samples) std::atomic_ref(used[s]).store(1, std::memory_order_relaxed);
+    const UVec3& t = scene.mesh.triangles[f.triangle];
+    const Vec3 w(1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y);
+    const auto mean = [&](const std::vector<Vec3>& values) {
+      return w.x * values[t.x] + w.y * values[t.y] + w.z * values[t.z];
+    };
+    tile.pixel.push_back(pixel);
+    tile.share.push_back(share);
+    tile.object.push_back(scene.triangleObject[f.triangle]);
+    tile.slot.push_back(samples);
+    tile.weight.push_back(w);
+    const Vec3 normal = normalOf(f, mean(scene.mesh.normals));
+    const Vec3 view = camera.orthographic ? parallelView : camera.towardsViewer(mean(scene.mesh.positions));
+    for (std::size_t i = 0; i < 3; ++i) {
+      tile.normal[i].push_back(normal[int(i)]);
+      tile.view[i].push_back(view[int(i)]);
+    }
+  }
+
+  /// As the renderer in render.h: the face's own normal where the shading normals cancel.
+  Vec3 normalOf(const Fragment& f, const Vec3& smooth) const {
+    const float side = f.back ? -1.0f : 1.0f, size = length(smooth);
+    if (size > 1e-6f) return side / size * smooth;
+    const Vec3 face = scene.mesh.areaNormal(f.triangle);
+    return side * (length(face) > 0 ? normalize(face) : Vec3(0, 0, 1));
+  }
+
+  void fill(const FragmentTile& seen, float part, LiveTile& tile) {
+    tile.x = seen.x, tile.y = seen.y, tile.width = seen.width, tile.height = seen.height;
+    const std::size_t pixels = std::size_t(seen.width) * std::size_t(seen.height);
+    tile.open.resize(pixels);
+    reserve(tile, seen.fragments.size() + kLiveLanes);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      float covered = 0;
+      for (const Fragment& f : seen.pixel(p)) {
+        const float share = float(f.samples) * part;
+        covered += share;
+        add(f, std::uint32_t(p), share, tile);
+      }
+      tile.open[p] = covered < 1 - 0.5f * part ? 1 - covered : 0;
+    }
+    tile.count = tile.pixel.size();
+    while (tile.pixel.size() % kLiveLanes != 0) repeatLast(tile);
+  }
+
+  template <class F>
+  static void eachArray(LiveTile& tile, F&& f) {
+    f(tile.pixel), f(tile.share), f(tile.object), f(tile.slot), f(tile.weight);
+    for (std::size_t i = 0; i < 3; ++i) f(tile.normal[i]), f(tile.view[i]);
+  }
+  static void reserve(LiveTile& tile, std::size_t count) {
+    eachArray(tile, [count](auto& values) { values.reserve(count); });
+  }
+  static void repeatLast(LiveTile& tile) {
+    eachArray(tile, [](auto& values) { values.push_back(values.back()); });
+    tile.share.back() = 0;
+  }
+};
+
+}  // namespace
+
+LiveView makeLiveView(const Scene& scene, std::span<const std::uint32_t> back,
+                      const std::vector<bool>& twoSided, const Camera& camera, int width, int height,
+                      int grid, Job& job) {
+  std::size_t sampleCount = scene.mesh.vertexCount();
+  for (const std::uint32_t s : back)
+    if (s != kNone) sampleCount = std::max(sampleCount, std::size_t(s) + 1);
+  Maker maker{scene, back, twoSided, camera, camera.axes().normal, std::vector<std::uint8_t>(sampleCount, 0)};
+
+  const Rasterizer rasterizer(scene.mesh, camera, width, height, grid, job);
+  LiveView view;
+  view.tiles.resize(rasterizer.tileCount());
+  const float part = 1.0f / float(grid * grid);
+  parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
+    thread_local SampleTile samples;
+    thread_local FragmentTile fragments;
+    rasterizer.drawFragments(t, samples, fragments);
+    maker.fill(fragments, part, view.tiles[t]);
+  });
+
+  // Samples that are seen get consecutive places.
+  std::vector<std::uint32_t> slot(sampleCount, 0);
+  for (std::size_t s = 0; s < sampleCount; ++s) {
+    if (!maker.used[s]) continue;
+    slot[s] = std::uint32_t(view.samples.size());
+    view.samples.push_back(std::uint32_t(s));
+  }
+  parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
+    for (auto& corners : view.tiles[t].slot)
+      for (std::uint32_t& corner : corners) corner = slot[corner];
+  });
+  return view;
+}
+
+}  // namespace prt

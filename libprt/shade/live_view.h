@@ -1,0 +1,45 @@
+#pragma once
+// What a camera sees, in the form that LiveRenderer shades again and again while camera and mesh stay.
+
+#include "libprt/core/job.h"
+#include "libprt/core/math.h"
+#include "libprt/shade/camera.h"
+#include "libprt/transport/sample_set.h"
+#include "libprt/transport/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Fragments of a rectangle of pixels that reflect light, row by row; arrays end with copies of the last one,
+/// without a share, up to a multiple of kLiveLanes.
+struct LiveTile {
+  int x = 0, y = 0;  ///< first pixel
+  int width = 0, height = 0;
+  std::size_t count = 0;             ///< fragments, without the copies
+  std::vector<std::uint32_t> pixel;  ///< row * width + column
+  std::vector<float> share;          ///< of the pixel
+  std::vector<std::uint32_t> object;
+  std::vector<std::array<std::uint32_t, 3>> slot;  ///< of the triangle's samples in LiveView::samples
+  std::vector<Vec3> weight;                        ///< and their weights
+  std::array<std::vector<float>, 3> normal, view;  ///< unit, on the side that is seen; towards the viewer
+  std::vector<float> open;  ///< [width * height] share of each pixel that shows the background
+};
+
+inline constexpr std::size_t kLiveLanes = 8;
+
+struct LiveView {
+  std::vector<LiveTile> tiles;
+  std::vector<std::uint32_t> samples;  ///< those that anything seen needs, ascending
+};
+
+/// `back` as SampleSet::back; `twoSided` [objects] tells which reflect on their back sides. grid x grid
+/// samples a pixel.
+LiveView makeLiveView(const Scene& scene, std::span<const std::uint32_t> back,
+                      const std::vector<bool>& twoSided, const Camera& camera, int width, int height,
+                      int grid, Job& job);
+
+}  // namespace prt
