@@ -10,6 +10,7 @@
 #include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
 #include "ui/viewport/light_handles.h"
+#include "ui/viewport/view_actions.h"
 #include "ui/viewport/viewport.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
@@ -70,6 +71,7 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
     : session_(session),
       documents_(new DocumentMenu(session, *this)),
       viewport_(new Viewport(session)),
+      viewActions_(new ViewActions(session, *viewport_, !freshLayout, this)),
       lightHandles_(
           new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
       message_(new MessageBar(viewport_)),
@@ -102,6 +104,13 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
     if (place != Place::Viewport) return;
     message_->show(severity, text);
     placeMessage();
+  });
+  connect(viewport_, &Viewport::menuRequested, this, [this](const QPoint& at) {
+    auto* menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->setToolTipsVisible(true);
+    viewActions_->fillContextMenu(*menu);
+    menu->popup(at);
   });
   connect(&session_.document(), &Document::opened, message_, &QWidget::hide);
   connect(&session_.document(), &Document::stateChanged, this, &MainWindow::refreshTitle);
@@ -218,10 +227,7 @@ void MainWindow::makeEditMenu() {
 
 void MainWindow::makeViewMenu() {
   QMenu* menu = menuBar()->addMenu(tr("&View"));
-  menu->addAction(icon(QStringLiteral("zoom-fit-best")), tr("&Frame all"), QKeySequence(Qt::Key_F), this,
-                  [this] { session_.frameAll(); });
-  menu->addAction(icon(QStringLiteral("go-home")), tr("&Reset view"), QKeySequence(Qt::Key_R), this,
-                  [this] { session_.view().reset(); });
+  viewActions_->fillViewMenu(*menu);
   QAction* handles =
       menu->addAction(tr("&Light handles"), QKeySequence(Qt::Key_L), lightHandles_, &Manipulator::setEnabled);
   handles->setCheckable(true);

@@ -69,6 +69,7 @@ class MainWindow : public QMainWindow {
   Session& session_;
   class DocumentMenu* documents_;
   Viewport* viewport_;
+  class ViewActions* viewActions_;
   LightHandles* lightHandles_;
   MessageBar* message_;
   class RecoveryBar* recovery_;

@@ -1,5 +1,6 @@
 // prt-studio: opens what it is given, or the built-in default scene.
 
+#include "ui/bench.h"
 #include "ui/main_window.h"
 #include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
@@ -23,6 +24,8 @@ struct Options {
   prt::ui::ScreenshotOptions screenshot;
   prt::ui::ErrorShown errors = prt::ui::ErrorShown::Off;
   QSize size{1440, 900};
+  bool bench = false;
+  int frames = 90;
 };
 
 // Ends the program itself for --help, --version and wrong usage.
@@ -51,7 +54,11 @@ Options parse(const QApplication& application) {
        {QStringLiteral("theme"), QStringLiteral("dark or light; kept when chosen from the menu"),
         QStringLiteral("NAME")},
        {QStringLiteral("size"), QStringLiteral("size of the window, 1440x900 by default"),
-        QStringLiteral("WxH")}});
+        QStringLiteral("WxH")},
+       {QStringLiteral("bench"),
+        QStringLiteral("measure how fast the window follows the hand, print it as JSON and end")},
+       {QStringLiteral("frames"), QStringLiteral("of each part of the bench, 90 by default"),
+        QStringLiteral("N"), QStringLiteral("90")}});
   parser.process(application);
 
   const auto wrong = [](const QString& what) {
@@ -71,6 +78,10 @@ Options parse(const QApplication& application) {
   options.theme = parser.value(QStringLiteral("theme"));
   if (parser.isSet(QStringLiteral("theme")) && !prt::ui::themeNamed(options.theme))
     wrong(QStringLiteral("--theme takes dark or light"));
+  options.bench = parser.isSet(QStringLiteral("bench"));
+  options.frames = parser.value(QStringLiteral("frames")).toInt();
+  if (options.frames < 1 || options.frames > 100000)
+    wrong(QStringLiteral("--frames takes a number from 1 to 100000"));
   if (parser.isSet(QStringLiteral("errors"))) {
     const QStringList names{QStringLiteral("total"), QStringLiteral("noise"), QStringLiteral("interpolation"), QStringLiteral("truncation")};
     const auto index = names.indexOf(parser.value(QStringLiteral("errors")));
@@ -112,7 +123,7 @@ int main(int argc, char** argv) {
 
   prt::ui::Session session;
   const bool picture = !options.screenshot.file.isEmpty();
-  prt::ui::MainWindow window(session, options.resetUi || picture);
+  prt::ui::MainWindow window(session, options.resetUi || picture || options.bench);
   if (!options.screenshot.dock.isEmpty() && !window.dockNames().contains(options.screenshot.dock)) {
     std::fprintf(stderr, "prt-studio: there is no dock '%s'; there are %s\n",
                  qPrintable(options.screenshot.dock),
@@ -121,6 +132,7 @@ int main(int argc, char** argv) {
   }
   if (picture) window.resize(options.size);
   window.show();
+  if (options.bench) return prt::ui::runBench(window, session, {options.what, options.frames});
   session.open(options.what);
   session.errors().show(options.errors);
   if (picture) return prt::ui::takeScreenshot(application, window, session, options.screenshot);

@@ -11,12 +11,14 @@ namespace prt::ui {
 namespace {
 
 std::shared_ptr<const Scene> sphereScene() {
-  const SceneObject object{"sphere", std::make_shared<const TriMesh>(makeIcosphere({.radius = 1, .subdivisions = 2})),
+  const SceneObject object{"sphere",
+                           std::make_shared<const TriMesh>(makeIcosphere({.radius = 1, .subdivisions = 2})),
                            Mat4(1), Material{}};
   return std::make_shared<const Scene>(flattenScene(std::span(&object, 1)));
 }
 
-Transfer diffuseTransfer(const std::shared_ptr<const Scene>& scene, const std::shared_ptr<const SampleSet>& samples) {
+Transfer diffuseTransfer(const std::shared_ptr<const Scene>& scene,
+                         const std::shared_ptr<const SampleSet>& samples) {
   TransferSettings settings;
   settings.form = TransferForm::Diffuse;
   settings.bands = 3;
@@ -107,7 +109,8 @@ TEST(Relighter, TurningTheEnvironmentTurnsItsCoefficients) {
   rig.environment = map;
   const ShRgb expected = projectLights(rig, 5);
   ASSERT_EQ(relighter.light().c.size(), expected.c.size());
-  for (std::size_t k = 0; k < expected.c.size(); ++k) EXPECT_LT(length(relighter.light().c[k] - expected.c[k]), 1e-4f);
+  for (std::size_t k = 0; k < expected.c.size(); ++k)
+    EXPECT_LT(length(relighter.light().c[k] - expected.c[k]), 1e-4f);
 }
 
 TEST(Relighter, TheRecipesWindowKeepsASunFromRinging) {
@@ -117,7 +120,8 @@ TEST(Relighter, TheRecipesWindowKeepsASunFromRinging) {
   rig.circles = {{Vec3(0, 1, 0), 0.02f, Rgb(1000)}};
   const auto darkest = [&] {
     float low = 0;
-    for (const Vec3& d : relighter.scene()->mesh.normals) low = std::min(low, relighter.light().evaluate(d).x);
+    for (const Vec3& d : relighter.scene()->mesh.normals)
+      low = std::min(low, relighter.light().evaluate(d).x);
     return low;
   };
   relighter.setLights(rig);
@@ -150,6 +154,29 @@ TEST(Relighter, MaterialsChangeThePictureNotTheLight) {
   relighter.setMaterials({Material{.albedo = Rgb(0.1f)}});
   EXPECT_EQ(relighter.lightVersion(), light);
   EXPECT_GT(relighter.materialVersion(), materials);
+}
+
+TEST(Relighter, WhatStandsBehindTheModelIsLatLongSharpOrBlurredAndMadeOnce) {
+  Relighter relighter;
+  EXPECT_FALSE(relighter.backdrop());
+  EXPECT_FALSE(relighter.blurredBackdrop());
+  const auto map = std::make_shared<const EnvironmentMap>(clearSky({}, 128, 64));
+  relighter.setEnvironment(map, projectEnvironment(*map, 5));
+  EXPECT_EQ(relighter.backdrop(), map) << "it is lat-long as it is";
+  const auto blurred = relighter.blurredBackdrop();
+  ASSERT_TRUE(blurred);
+  EXPECT_EQ(relighter.blurredBackdrop(), blurred);
+  EXPECT_LT(blurred->report().largest, 0.1f * map->report().largest) << "the sun is spread";
+  relighter.setEnvironment(nullptr, {});
+  EXPECT_FALSE(relighter.blurredBackdrop());
+}
+
+TEST(Relighter, LightIsKnownWithoutApplyingTransfer) {
+  Relighter relighter;
+  LightRig rig;
+  rig.constant = Rgb(2);
+  relighter.setLights(rig);
+  EXPECT_NEAR(relighter.light().evaluate(Vec3(1, 0, 0)).y, 2, 1e-5) << "there is no scene to apply it to";
 }
 
 }  // namespace

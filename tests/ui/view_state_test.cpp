@@ -5,7 +5,9 @@
 namespace prt::ui {
 namespace {
 
-float distance(const Camera& c) { return length(c.eye - c.target); }
+float distance(const Camera& c) {
+  return length(c.eye - c.target);
+}
 
 // Where a point appears: from the middle of the view, in heights, y upwards.
 Vec2 place(const Camera& camera, const Vec3& point) {
@@ -100,6 +102,53 @@ TEST(ViewState, SaysWhenItChangesAndOnlyThen) {
   view.setBackground(BackgroundMode::Plain);
   view.setBackground(BackgroundMode::Plain);
   EXPECT_EQ(changes, 2);
+}
+
+TEST(ViewState, ParallelRaysKeepTheSizeAtTheTargetAndZoomAndPanLikeAPinhole) {
+  ViewState view;
+  const Frame axes = view.camera().axes();
+  const Vec3 point = view.camera().target + 0.3f * axes.tangent - 0.2f * axes.bitangent;
+  const Vec2 before = view.camera().project(point, 100, 100).value();
+  view.setOrthographic(true);
+  EXPECT_NEAR(length(view.camera().project(point, 100, 100).value() - before), 0, 1e-3);
+  view.zoom(2, (before.x - 50) / 100, (50 - before.y) / 100);
+  EXPECT_NEAR(length(view.camera().project(point, 100, 100).value() - before), 0, 1e-3)
+      << "what is under the pointer stays";
+  EXPECT_LT(view.camera().viewHeight(), 0.8f * 2 * 3 * std::tan(0.2617994f));
+  view.pan(0.1f, 0);
+  EXPECT_NEAR(view.camera().project(point, 100, 100)->x, before.x + 10, 1e-2);
+  view.reset();
+  EXPECT_FALSE(view.camera().orthographic);
+}
+
+TEST(ViewState, LooksFromASideAndFromTheTop) {
+  ViewState view;
+  view.orbit(0.2f, 0.1f);
+  const float away = distance(view.camera());
+  const Vec3 target = view.camera().target;
+  view.lookFrom(Vec3(2, 0, 0));
+  EXPECT_NEAR(length(view.camera().eye - target - Vec3(away, 0, 0)), 0, 1e-4);
+  EXPECT_NEAR(view.camera().axes().bitangent.y, 1, 1e-5);
+  view.lookFrom(Vec3(0, 1, 0));
+  EXPECT_NEAR(view.camera().axes().normal.y, 1, 1e-5);
+  EXPECT_NEAR(view.camera().axes().tangent.x, 1, 1e-5) << "+x stays to the right";
+  view.orbit(0, -0.1f);
+  EXPECT_TRUE(isFinite(view.camera().eye));
+  EXPECT_LT(view.camera().eye.y - target.y, away);
+}
+
+TEST(ViewState, SaysWhenSomethingChangedAndOnlyThen) {
+  ViewState view;
+  int changes = 0;
+  QObject::connect(&view, &ViewState::changed, [&] { ++changes; });
+  view.setBackground(BackgroundMode::Blurred);
+  view.setGrid(true);
+  view.setCompass(false);
+  view.setNavigation(NavigationPreset::Maya);
+  EXPECT_EQ(changes, 4);
+  view.setGrid(true);
+  view.setNavigation(NavigationPreset::Maya);
+  EXPECT_EQ(changes, 4);
 }
 
 }  // namespace

@@ -36,6 +36,19 @@ std::map<std::string, std::string> readings(const Recipe& recipe) {
   return texts;
 }
 
+// Whether two recipes differ in nothing that a stage reads, as far as can be told without making texts of
+// them.
+bool sameBake(const Recipe& a, const Recipe& b) {
+  static const bool lightsMatter = [] {
+    for (const Stage& stage : stages())
+      for (const std::string& section : stage.reads)
+        if (section.starts_with("lights") || section.starts_with("cameras") || section.starts_with("method"))
+          return true;
+    return false;
+  }();
+  return !lightsMatter && a.objects == b.objects && a.transfer == b.transfer;
+}
+
 // What the studio shows. What these are made from follows by itself.
 const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer"};
 
@@ -129,6 +142,10 @@ void BakeController::setBaker(std::shared_ptr<Baker> baker, const std::filesyste
 
 void BakeController::setRecipe(const Recipe& recipe) {
   if (!baker_) return;
+  if (!wanted_.empty() && sameBake(recipe, recipe_)) {  // every move of a light comes by here
+    recipe_ = recipe;
+    return;
+  }
   recipe_ = recipe;
   std::map<std::string, std::string> wanted = readings(recipe);
   if (wanted == wanted_) return;

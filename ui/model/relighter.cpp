@@ -1,5 +1,6 @@
 #include "ui/model/relighter.h"
 
+#include "libprt/light/resample.h"
 #include "libprt/project/lights.h"
 
 #include <algorithm>
@@ -9,8 +10,12 @@ namespace prt::ui {
 
 namespace {
 
+constexpr int kBackdropWidth = 2048;  // of maps in other mappings than lat-long
+constexpr double kBlurDegrees = 10;
+
 bool sameGeometry(const Scene& a, const Scene& b) {
-  return a.mesh.positions == b.mesh.positions && a.mesh.normals == b.mesh.normals && a.mesh.triangles == b.mesh.triangles;
+  return a.mesh.positions == b.mesh.positions && a.mesh.normals == b.mesh.normals &&
+         a.mesh.triangles == b.mesh.triangles;
 }
 
 }  // namespace
@@ -57,6 +62,8 @@ void Relighter::setTransfer(std::shared_ptr<const Transfer> transfer) {
 void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients) {
   rig_.environment = std::move(map);
   environmentCoefficients_ = std::move(coefficients);
+  backdrop_.reset();
+  blurred_.reset();
   ++environmentVersion_;
   touchLight();
   Q_EMIT environmentChanged();
@@ -78,8 +85,11 @@ void Relighter::setMaterials(std::vector<Material> materials) {
 }
 
 const ShRgb& Relighter::light() {
-  apply();
-  return light_;
+  if (std::exchange(lightOf_, lightVersion_) == lightVersion_) return light_;
+  ShRgb environment(bands());
+  const std::size_t known = std::min(environment.c.size(), environmentCoefficients_.c.size());
+  std::copy_n(environmentCoefficients_.c.begin(), known, environment.c.begin());
+  return light_ = lightFor(rig_, environment, method_);
 }
 
 ShRgb Relighter::wholeLight() const {
@@ -88,27 +98,30 @@ ShRgb Relighter::wholeLight() const {
 }
 
 const SurfaceLight& Relighter::surface() {
-  apply();
-  return surface_;
+  if (std::exchange(surfaceOf_, lightVersion_) == lightVersion_) return surface_;
+  Transfer unshadowed;
+  unshadowed.bands = bands();
+  return surface_ = surfaceLight(shadowed() ? *transfer_ : unshadowed, light(),
+                                 shadowed() ? *samples_ : SampleSet{});
+}
+
+const std::shared_ptr<const EnvironmentMap>& Relighter::backdrop() {
+  const auto& map = rig_.environment;
+  if (!map || map->report().mapping == EnvironmentMapping::LatLong) return map;
+  if (!backdrop_)
+    backdrop_ = std::make_shared<EnvironmentMap>(toLatLong(*map, kBackdropWidth, kBackdropWidth / 2));
+  return backdrop_;
+}
+
+const std::shared_ptr<const EnvironmentMap>& Relighter::blurredBackdrop() {
+  if (!blurred_ && rig_.environment)
+    blurred_ = std::make_shared<EnvironmentMap>(blurredLatLong(*rig_.environment, radians(kBlurDegrees)));
+  return blurred_;
 }
 
 void Relighter::touchLight() {
   ++lightVersion_;
   Q_EMIT changed();
-}
-
-// Brings the light to the surface when something changed since the last time.
-void Relighter::apply() {
-  if (appliedVersion_ == lightVersion_) return;
-  appliedVersion_ = lightVersion_;
-  ShRgb environment(bands());
-  const std::size_t known = std::min(environment.c.size(), environmentCoefficients_.c.size());
-  std::copy_n(environmentCoefficients_.c.begin(), known, environment.c.begin());
-  light_ = lightFor(rig_, environment, method_);
-  Transfer unshadowed;
-  unshadowed.bands = bands();
-  const bool ready = transfer_ && samples_;
-  surface_ = surfaceLight(ready ? *transfer_ : unshadowed, light_, ready ? *samples_ : SampleSet{});
 }
 
 }  // namespace prt::ui

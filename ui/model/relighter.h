@@ -41,6 +41,9 @@ class Relighter : public QObject {
   const std::shared_ptr<const Transfer>& transfer() const { return transfer_; }
   const std::shared_ptr<const EnvironmentMap>& environment() const { return rig_.environment; }
   const LightRig& rig() const { return rig_; }
+  /// The environment as it stands behind the model: lat-long, sharp or blurred. Made when first asked for.
+  const std::shared_ptr<const EnvironmentMap>& backdrop();
+  const std::shared_ptr<const EnvironmentMap>& blurredBackdrop();
   const std::vector<Material>& materials() const { return materials_; }
   int bands() const { return transfer_ ? transfer_->bands : kUnshadowedBands; }
 
@@ -67,7 +70,7 @@ class Relighter : public QObject {
  private:
   static constexpr int kUnshadowedBands = 5;
   void touchLight();
-  void apply();
+  bool shadowed() const { return transfer_ && samples_; }
 
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const SampleSet> samples_, nextSamples_;
@@ -78,7 +81,9 @@ class Relighter : public QObject {
   std::vector<Material> materials_;
   ShRgb light_;
   SurfaceLight surface_;
-  quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0, appliedVersion_ = 0;
+  quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0;
+  quint64 lightOf_ = 0, surfaceOf_ = 0;  // light versions that light_ and surface_ were made of
+  std::shared_ptr<const EnvironmentMap> backdrop_, blurred_;
 };
 
 }  // namespace prt::ui

@@ -237,7 +237,11 @@ void Session::take(const QString& stage, const ProductState& state) {
     for (const ObjectRecipe& object : document_.recipe().objects) meshRecipes_.push_back(object.mesh);
     Q_EMIT meshesChanged();
   } else if (stage == u"scene") {
-    relighter_.setScene(std::dynamic_pointer_cast<const SceneProduct>(state.product)->scene);
+    const auto scene = std::dynamic_pointer_cast<const SceneProduct>(state.product)->scene;
+    objectBounds_.assign(scene->names.size(), Box3{});
+    for (std::size_t v = 0; v < scene->vertexObject.size(); ++v)
+      objectBounds_[scene->vertexObject[v]].extend(scene->mesh.positions[v]);
+    relighter_.setScene(scene);
     applyMaterials();
     if (std::exchange(frameNext_, false)) showFirst();
   } else if (stage == u"samples") {
@@ -303,6 +307,10 @@ bool Session::settled() const {
 
 Box3 Session::bounds() const {
   return relighter_.scene() ? relighter_.scene()->mesh.bounds() : Box3{};
+}
+
+Box3 Session::objectBounds(int object) const {
+  return object >= 0 && object < int(objectBounds_.size()) ? objectBounds_[std::size_t(object)] : Box3{};
 }
 
 void Session::report(Severity severity, const QString& text, Place place) {

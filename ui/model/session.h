@@ -100,7 +100,10 @@ class Session : public QObject {
   /// What is stored for the surface, in words: form, functions, bytes.
   QString transferSummary() const;
   Box3 bounds() const;
+  /// Of one object; empty when there is no such object or nothing was read yet.
+  Box3 objectBounds(int object) const;
   void frameAll() { view_.frame(bounds()); }
+  void frameSelected() { view_.frame(objectBounds(selectedObject_)); }
 
   /// Writes to the log, and for warnings and errors asks for a message at its place.
   void report(Severity severity, const QString& text, Place place = Place::Viewport);
@@ -141,6 +144,7 @@ class Session : public QObject {
   std::string environmentShown_;  // key of the map that is loaded or on its way
   bool environmentExact_ = true;
   std::string skyJobKey_;  // of the exact sky that is on its way
+  std::vector<Box3> objectBounds_;
   std::shared_ptr<const MeshProduct> meshes_;
   std::vector<MeshRecipe> meshRecipes_;
   int level_ = 0, levels_ = 0;

@@ -7,9 +7,9 @@ namespace prt::ui {
 
 namespace {
 
-constexpr float kTurnPerHeight = kPiF;       // half a turn for a drag over the whole view
-constexpr float kSteepest = 1.55334f;        // 89 degrees: short of the poles
-constexpr float kZoomPerStep = 0.85f;        // distance left after one notch of the wheel
+constexpr float kTurnPerHeight = kPiF;  // half a turn for a drag over the whole view
+constexpr float kSteepest = 1.55334f;   // 89 degrees: short of the poles
+constexpr float kZoomPerStep = 0.85f;   // distance left after one notch of the wheel
 constexpr float kFrameMargin = 1.1f;
 
 Vec3 rotated(const Vec3& v, const Vec3& axis, float angle) {
@@ -30,10 +30,17 @@ void ViewState::setTone(const ToneSettings& tone) {
   Q_EMIT changed();
 }
 
-void ViewState::setBackground(BackgroundMode background) {
-  if (background == background_) return;
-  background_ = background;
-  Q_EMIT changed();
+void ViewState::setOrthographic(bool orthographic) {
+  Camera camera = camera_;
+  camera.orthographic = orthographic;
+  setCamera(camera);
+}
+
+void ViewState::lookFrom(const Vec3& direction) {
+  Camera camera = camera_;
+  camera.eye = camera.target + length(camera.eye - camera.target) * normalize(direction);
+  camera.up = Vec3(0, 1, 0);
+  setCamera(camera);
 }
 
 void ViewState::frame(const Box3& box) {
@@ -63,7 +70,7 @@ void ViewState::orbit(float dx, float dy) {
 
 void ViewState::pan(float dx, float dy) {
   Camera camera = camera_;
-  const float height = 2 * length(camera.eye - camera.target) * std::tan(0.5f * camera.verticalFov);
+  const float height = camera.viewHeight();
   const Frame axes = camera.axes();
   const Vec3 shift = (-dx * axes.tangent + dy * axes.bitangent) * height;
   camera.eye += shift;
@@ -76,7 +83,7 @@ void ViewState::zoom(float steps, float x, float y) {
   const float factor = std::pow(kZoomPerStep, steps);
   const Vec3 arm = camera.eye - camera.target;
   const Frame axes = camera.axes();
-  const float height = 2 * length(arm) * std::tan(0.5f * camera.verticalFov);
+  const float height = camera.viewHeight();
   const Vec3 under = camera.target + (x * axes.tangent + y * axes.bitangent) * height;
   camera.target = under + (camera.target - under) * factor;
   camera.eye = camera.target + arm * factor;

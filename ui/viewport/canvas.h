@@ -43,6 +43,8 @@ class Canvas {
   virtual bool settled() const = 0;
   /// Milliseconds that the last frame took: relighting, drawing, tone mapping.
   virtual double frameMilliseconds() const = 0;
+  /// Frames that have reached the screen so far.
+  virtual quint64 frames() const = 0;
   /// "OpenGL 4.5, llvmpipe" or "CPU".
   virtual QString describe() const = 0;
   /// The picture without overlay as it is now on the screen.

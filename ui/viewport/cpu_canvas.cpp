@@ -1,6 +1,6 @@
 #include "ui/viewport/cpu_canvas.h"
 
-#include "libprt/shade/render.h"
+#include "libprt/shade/ground_grid.h"
 
 #include <QElapsedTimer>
 #include <QPainter>
@@ -9,96 +9,183 @@ namespace prt::ui {
 
 namespace {
 
-constexpr double kCoarseWhileInteracting = 0.5;  // of the resolution
-constexpr int kSmoothGrid = 2;                   // samples per pixel and side when still
+constexpr double kCoarse = 0.5;                    // of the resolution, while frames take too long
+constexpr double kTooLong = 40, kShortAgain = 8;   // milliseconds of a full and of a coarse frame
+constexpr int kSmoothGrid = 4, kThoroughGrid = 8;  // samples per pixel and side
+constexpr int kRestMilliseconds = 90;              // without a change, before the smooth picture is begun
+const Rgb kPlainBackground(0.16f);                 // as the screen shows it
 
-QImage toQImage(const Image& image) {
-  QImage out(image.width, image.height, QImage::Format_RGB32);
-  for (int y = 0; y < image.height; ++y) {
-    auto* row = reinterpret_cast<QRgb*>(out.scanLine(y));
-    for (int x = 0; x < image.width; ++x) {
-      const Rgb c = image.rgb(x, y);
-      row[x] = qRgb(qRound(255 * c.x), qRound(255 * c.y), qRound(255 * c.z));
+/// False colour and marks; `layer` is premultiplied and as the screen shows it.
+void layOver(QImage& image, const Image& layer) {
+  for (int y = 0; y < image.height(); ++y) {
+    auto* row = reinterpret_cast<QRgb*>(image.scanLine(y));
+    for (int x = 0; x < image.width(); ++x) {
+      const float* over = layer.pixel(x, y);
+      if (over[3] <= 0) continue;
+      const auto mixed = [&](int c, int below) { return qRound(255 * over[c] + (1 - over[3]) * float(below)); };
+      row[x] = qRgb(mixed(0, qRed(row[x])), mixed(1, qGreen(row[x])), mixed(2, qBlue(row[x])));
     }
   }
-  return out;
 }
 
 }  // namespace
 
+void CpuCanvas::drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene,
+                         const LivePicture& picture, const Layers& layers, Job& job) {
+  const int width = picture.width, height = picture.height;
+  if (image.size() != QSize(width, height)) image = QImage(width, height, QImage::Format_RGB32);
+  // Rows of 32-bit pixels have no padding.
+  renderer.draw(scene, picture,
+                {reinterpret_cast<std::uint32_t*>(image.bits()), std::size_t(width) * std::size_t(height)}, job);
+  const bool fits = scene.scene && layers.values.size() == scene.scene->mesh.vertexCount();
+  if (!scene.scene || (!fits && layers.marks.empty())) return;
+  const OverlayPicture over{picture.camera, width, height, layers.grid, layers.pixelScale};
+  layOver(image, drawSurfaceOverlay(scene.scene->mesh,
+                                    fits ? std::span<const float>(layers.values) : std::span<const float>(),
+                                    layers.marks, over, job));
+}
+
 CpuCanvas::CpuCanvas(CanvasContext context, QWidget* parent) : QWidget(parent), context_(std::move(context)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_OpaquePaintEvent);
+  smoothing_.setMaxThreadCount(1);
+  rest_.setSingleShot(true);
+  connect(&rest_, &QTimer::timeout, this, &CpuCanvas::startSmooth);
+}
+
+CpuCanvas::~CpuCanvas() {
+  if (smooth_) smooth_->job.cancel();
+  smoothing_.waitForDone();
+}
+
+void CpuCanvas::invalidate() {
+  ++version_;
+  if (smooth_) smooth_->job.cancel();
+  update();
 }
 
 void CpuCanvas::setInteracting(bool interacting) {
   if (interacting == interacting_) return;
   interacting_ = interacting;
+  if (!interacting && coarse_) ++version_;
   update();
 }
 
-void CpuCanvas::followScene() {
-  const Relighter& lit = context_.relighter;
-  if (sceneVersion_ == lit.sceneVersion() && materialVersion_ == lit.materialVersion()) return;
-  if (sceneVersion_ != lit.sceneVersion()) scene_ = *lit.scene();
-  scene_.materials = lit.materials();
-  samples_ = samplesAtVertices(scene_);
-  sceneVersion_ = lit.sceneVersion();
-  materialVersion_ = lit.materialVersion();
+void CpuCanvas::setThorough(bool thorough) {
+  if (thorough == thorough_) return;
+  thorough_ = thorough;
+  invalidate();
 }
 
-QImage CpuCanvas::draw() {
+bool CpuCanvas::settled() const {
+  return broken_ || (!interacting_ && smooth_ && smooth_->version == version_ && !smooth_->image.isNull());
+}
+
+int CpuCanvas::smoothGrid() const {
+  return thorough_ ? kThoroughGrid : kSmoothGrid;
+}
+
+QSize CpuCanvas::pixels(double scale) const {
+  const double ratio = devicePixelRatioF() * scale;
+  return {std::max(1, qRound(width() * ratio)), std::max(1, qRound(height() * ratio))};
+}
+
+LiveScene CpuCanvas::liveScene() const {
   Relighter& lit = context_.relighter;
-  followScene();
-  const double scale = devicePixelRatioF() * (interacting_ ? kCoarseWhileInteracting : 1);
-  const int w = std::max(1, qRound(width() * scale)), h = std::max(1, qRound(height() * scale));
-  Transfer unshadowed;
-  unshadowed.bands = lit.bands();
-  const bool behind = context_.view.background() == BackgroundMode::Environment;
-  const bool baked = lit.transfer() && lit.samples();
-  const RenderInput input{.scene = scene_,
-                          .samples = baked ? *lit.samples() : samples_,
-                          .transfer = baked ? *lit.transfer() : unshadowed,
-                          .light = lit.light(),
-                          .background = behind ? &lit.rig() : nullptr};
-  Job patient;
-  const Image radiance = prt::render(input, context_.view.camera(), w, h, interacting_ ? 1 : kSmoothGrid, patient);
-  Image shown = toDisplay(radiance, context_.view.tone());
-  layOver(shown, scale);
-  return toQImage(shown);
+  LiveScene scene{lit.scene(), lit.samples(), lit.transfer(),     lit.materials(),
+                  lit.light(), nullptr,       lit.rig().rotation, lit.rig().intensity};
+  if (context_.view.background() == BackgroundMode::Environment) scene.environment = lit.backdrop();
+  if (context_.view.background() == BackgroundMode::Blurred) scene.environment = lit.blurredBackdrop();
+  return scene;
 }
 
-void CpuCanvas::layOver(Image& picture, double scale) const {
-  const SurfaceLayers& layers = context_.layers;
-  const bool fits = layers.values().size() == scene_.mesh.vertexCount();
-  if (layers.marks().empty() && (layers.values().empty() || !fits)) return;
-  OverlayPicture over = overlayPicture(context_.view.camera(), size(), scale, interacting_);
-  over.width = picture.width, over.height = picture.height;
+CpuCanvas::Layers CpuCanvas::layersNow(double scale, int grid) const {
+  return {context_.layers.values(), context_.layers.marks(), float(devicePixelRatioF() * scale), grid};
+}
+
+LivePicture CpuCanvas::livePicture(const QSize& size, int grid) const {
+  const float spacing = context_.view.grid() && context_.relighter.scene()
+                            ? gridSpacing(context_.relighter.scene()->mesh.bounds())
+                            : 0;
+  return {context_.view.camera(), size.width(),         size.height(), grid,
+          kPlainBackground,       context_.view.tone(), spacing};
+}
+
+void CpuCanvas::drawFrame() {
+  if (drawn_ == version_ && (frame_.size() == pixels(1) || interacting_)) return;
+  QElapsedTimer timer;
+  timer.start();
+  const bool coarse = interacting_ && coarse_;
   Job patient;
-  const Image layer = drawSurfaceOverlay(scene_.mesh, fits ? std::span<const float>(layers.values()) : std::span<const float>(),
-                                         layers.marks(), over, patient);
-  for (std::size_t i = 0; i < picture.pixels(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      float& value = picture.data[std::size_t(picture.channels) * i + c];
-      value = layer.data[4 * i + c] + (1 - layer.data[4 * i + 3]) * value;
-    }
+  const double scale = coarse ? kCoarse : 1;
+  drawInto(frame_, renderer_, liveScene(), livePicture(pixels(scale), 1), layersNow(scale, 1), patient);
+  drawn_ = version_;
+  milliseconds_ = double(timer.nsecsElapsed()) * 1e-6;
+  if (interacting_) coarse_ = coarse ? milliseconds_ > kShortAgain : milliseconds_ > kTooLong;
+}
+
+// Behind the interface; what it needs is immutable or copied.
+void CpuCanvas::startSmooth() {
+  if (interacting_ || (smooth_ && smooth_->version == version_)) return;
+  if (smooth_) smooth_->job.cancel();
+  smooth_ = std::make_shared<Smooth>();
+  smooth_->version = version_;
+  smoothing_.start(
+      [this, smooth = smooth_, scene = liveScene(), picture = livePicture(pixels(1), smoothGrid()),
+       layers = layersNow(1, 2)] {
+        QImage image;
+        try {
+          LiveRenderer renderer;
+          drawInto(image, renderer, scene, picture, layers, smooth->job);
+        } catch (const std::exception&) {
+          return;  // cancelled; or the frame on the screen told already
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, smooth, image] {
+              smooth->image = image;
+              takeSmooth(smooth);
+            },
+            Qt::QueuedConnection);
+      });
+}
+
+void CpuCanvas::takeSmooth(const std::shared_ptr<Smooth>& smooth) {
+  if (smooth == smooth_ && smooth->version == version_) update();
 }
 
 void CpuCanvas::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  painter.fillRect(rect(), QColor(0x1e, 0x1e, 0x1e));
-  if (context_.relighter.scene()) {
-    QElapsedTimer timer;
-    timer.start();
-    painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    painter.drawImage(rect(), draw());
-    milliseconds_ = timer.nsecsElapsed() * 1e-6;
+  if (!context_.relighter.scene() || broken_) {
+    painter.fillRect(rect(), QColor(0x1e, 0x1e, 0x1e));
+  } else if (settled()) {
+    painter.drawImage(rect(), smooth_->image);
+  } else {
+    try {
+      drawFrame();
+    } catch (const std::exception& error) {
+      broken_ = true;
+      Q_EMIT failed(QString::fromUtf8(error.what()));
+    }
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, frame_.size() != pixels(1));
+    painter.drawImage(rect(), frame_);
+    if (!interacting_ && !broken_) rest_.start(thorough_ ? 0 : kRestMilliseconds);
   }
   context_.paintOverlay(painter);
+  ++frames_;
+}
+
+void CpuCanvas::resizeEvent(QResizeEvent*) {
+  invalidate();
 }
 
 QImage CpuCanvas::grabPicture() {
-  return context_.relighter.scene() ? draw() : QImage();
+  if (!context_.relighter.scene()) return {};
+  QImage image;
+  Job patient;
+  LiveRenderer renderer;
+  drawInto(image, renderer, liveScene(), livePicture(pixels(1), smoothGrid()), layersNow(1, 2), patient);
+  return image;
 }
 
 }  // namespace prt::ui

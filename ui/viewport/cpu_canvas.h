@@ -1,10 +1,18 @@
 #pragma once
-// Draws the scene with libprt's CPU renderer, for machines without OpenGL 4.5.
+// Draws the scene on the CPU: for machines without a graphics card, where it is several times faster than
+// OpenGL in software. While something changes every frame is drawn at once, one sample per pixel (fewer where
+// that takes too long for a hand to follow); when it rests, a picture with smooth edges is made behind the
+// interface and takes its place.
 
-#include "libprt/transport/sample_set.h"
+#include "libprt/shade/live_renderer.h"
 #include "ui/viewport/canvas.h"
 
 #include <QImage>
+#include <QThreadPool>
+#include <QTimer>
+
+#include <memory>
+#include <vector>
 
 namespace prt::ui {
 
@@ -12,30 +20,64 @@ class CpuCanvas : public QWidget, public Canvas {
   Q_OBJECT
  public:
   CpuCanvas(CanvasContext context, QWidget* parent);
+  ~CpuCanvas() override;
 
   QWidget* widget() override { return this; }
-  void invalidate() override { update(); }
+  void invalidate() override;
   void setInteracting(bool interacting) override;
-  void setThorough(bool) override {}
-  bool settled() const override { return !interacting_; }
+  void setThorough(bool thorough) override;
+  bool settled() const override;
   double frameMilliseconds() const override { return milliseconds_; }
+  quint64 frames() const override { return frames_; }
   QString describe() const override { return tr("CPU"); }
   QImage grabPicture() override;
 
+ Q_SIGNALS:
+  /// The renderer refused what it was given.
+  void failed(const QString& message);
+
  protected:
   void paintEvent(QPaintEvent*) override;
+  void resizeEvent(QResizeEvent*) override;
 
  private:
-  void followScene();
-  QImage draw();
-  void layOver(Image& picture, double scale) const;
+  /// One picture that is being made, or was; shared with the thread that makes it.
+  struct Smooth {
+    quint64 version = 0;
+    Job job;
+    QImage image;
+  };
+
+  /// What lies over the picture, as it is now.
+  struct Layers {
+    std::vector<float> values;
+    SurfaceMarks marks;
+    float pixelScale = 1;
+    int grid = 1;
+  };
+
+  static void drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene, const LivePicture& picture,
+                       const Layers& layers, Job& job);
+  Layers layersNow(double scale, int grid) const;
+  QSize pixels(double scale) const;
+  LiveScene liveScene() const;
+  LivePicture livePicture(const QSize& size, int grid) const;
+  void drawFrame();
+  void startSmooth();
+  void takeSmooth(const std::shared_ptr<Smooth>& smooth);
+  int smoothGrid() const;
 
   CanvasContext context_;
-  bool interacting_ = false;
+  LiveRenderer renderer_;
+  QImage frame_;
+  std::shared_ptr<Smooth> smooth_;  // the newest one
+  quint64 version_ = 1;             // of what is to be seen
+  quint64 drawn_ = 0;               // of frame_
+  bool interacting_ = false, thorough_ = false, coarse_ = false, broken_ = false;
   double milliseconds_ = 0;
-  Scene scene_;        // with the materials of now
-  SampleSet samples_;  // of the scene, as long as nothing is baked
-  quint64 sceneVersion_ = 0, materialVersion_ = 0;
+  quint64 frames_ = 0;
+  QTimer rest_;
+  QThreadPool smoothing_;  // one thread; goes first
 };
 
 }  // namespace prt::ui

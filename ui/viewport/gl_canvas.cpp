@@ -3,6 +3,7 @@
 #include "libprt/gl/headless_context.h"
 #include "libprt/gl/scene_renderer.h"
 #include "libprt/gl/surface_overlay.h"
+#include "libprt/shade/ground_grid.h"
 
 #include <QElapsedTimer>
 #include <QOffscreenSurface>
@@ -38,6 +39,7 @@ GlCanvas::GlCanvas(CanvasContext context, QWidget* parent)
     : QOpenGLWidget(parent), context_(std::move(context)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setFocusPolicy(Qt::NoFocus);
+  connect(this, &QOpenGLWidget::frameSwapped, this, [this] { ++frames_; });
 }
 
 GlCanvas::~GlCanvas() {
@@ -48,16 +50,19 @@ void GlCanvas::requestFormat() {
   QSurfaceFormat::setDefaultFormat(wantedFormat());
 }
 
-bool GlCanvas::available() {
-  QOpenGLContext context;
-  context.setFormat(wantedFormat());
-  QOffscreenSurface surface;
-  surface.setFormat(wantedFormat());
-  surface.create();
-  if (!context.create() || !context.makeCurrent(&surface)) return false;
-  const bool sufficient = gl::contextIsSufficient();
-  context.doneCurrent();
-  return sufficient;
+GlSupport GlCanvas::support() {
+  static const GlSupport found = [] {
+    QOpenGLContext context;
+    context.setFormat(wantedFormat());
+    QOffscreenSurface surface;
+    surface.setFormat(wantedFormat());
+    surface.create();
+    if (!context.create() || !context.makeCurrent(&surface)) return GlSupport::None;
+    const bool sufficient = gl::contextIsSufficient(), software = gl::contextIsSoftware();
+    context.doneCurrent();
+    return !sufficient ? GlSupport::None : software ? GlSupport::Software : GlSupport::Hardware;
+  }();
+  return found;
 }
 
 void GlCanvas::invalidate() {
@@ -87,7 +92,8 @@ void GlCanvas::initializeGL() {
   try {
     renderer_ = std::make_unique<gl::SceneRenderer>();
     description_ = QString::fromStdString(gl::describeContext());
-    scene_ = light_ = environment_ = materials_ = 0;
+    scene_ = light_ = materials_ = 0;
+    backdrop_.reset();
   } catch (const std::exception& error) {
     broken_ = true;
     Q_EMIT failed(QString::fromUtf8(error.what()));
@@ -163,9 +169,11 @@ void GlCanvas::uploadChanges() {
     renderer_->setMaterials(lit.materials());
     materials_ = lit.materialVersion();
   }
-  if (environment_ != lit.environmentVersion() && lit.environment()) {
-    renderer_->setEnvironment(*lit.environment());
-    environment_ = lit.environmentVersion();
+  const auto& backdrop =
+      context_.view.background() == BackgroundMode::Blurred ? lit.blurredBackdrop() : lit.backdrop();
+  if (backdrop && backdrop != backdrop_) {
+    renderer_->setEnvironment(*backdrop);
+    backdrop_ = backdrop;
   }
   if (light_ != lit.lightVersion()) {
     renderer_->setLight(lit.surface());
@@ -181,13 +189,16 @@ void GlCanvas::drawScene() {
   picture.samples = inPasses_ ? 1 : kSamples;
   picture.pass = inPasses_ ? std::min(pass_, kPasses - 1) : 0;
   // The renderer keeps the last map that it was given, also when the recipe has none any more.
-  const bool environment = context_.view.background() == BackgroundMode::Environment && context_.relighter.environment();
+  const bool environment =
+      context_.view.background() != BackgroundMode::Plain && context_.relighter.environment();
   picture.background = environment ? gl::Background::Environment : gl::Background::Black;
   picture.behind = kPlainBackground;
   picture.environmentRotation = context_.relighter.rig().rotation;
   picture.environmentIntensity = context_.relighter.rig().intensity;
   picture.smoothEnvironment = true;
   picture.tone = context_.view.tone();
+  if (context_.view.grid() && context_.relighter.scene())
+    picture.gridSpacing = gridSpacing(context_.relighter.scene()->mesh.bounds());
   renderer_->draw(picture, defaultFramebufferObject());
 }
 

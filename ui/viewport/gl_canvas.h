@@ -14,6 +14,8 @@ class SurfaceOverlay;
 
 namespace prt::ui {
 
+enum class GlSupport { None, Software, Hardware };
+
 class GlCanvas : public QOpenGLWidget, public Canvas {
   Q_OBJECT
  public:
@@ -22,8 +24,9 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
 
   /// Asks for OpenGL 4.5 core in every context made from now on. Before the application object.
   static void requestFormat();
-  /// Whether this machine gives such a context. Needs the application object.
-  static bool available();
+  /// What this machine gives, worked out once: no such context, one that the CPU draws, or a graphics card's.
+  /// Needs the application object.
+  static GlSupport support();
 
   QWidget* widget() override { return this; }
   void invalidate() override;
@@ -31,6 +34,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   void setThorough(bool thorough) override;
   bool settled() const override;
   double frameMilliseconds() const override { return milliseconds_; }
+  quint64 frames() const override { return frames_; }
   QString describe() const override { return description_; }
   QImage grabPicture() override;
 
@@ -55,14 +59,16 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   std::unique_ptr<gl::SurfaceOverlay> layers_;  // made when there is something to lay over
   bool interacting_ = false;
   bool broken_ = false;
+  bool thorough_ = false;  // always in passes
   double milliseconds_ = 0;
+  quint64 frames_ = 0;
   bool inPasses_ =
       false;      // smooth edges come from several passes over time, not from several samples at once
   int pass_ = 0;  // of the next frame
-  bool thorough_ = false;  // always in passes
   bool finished_ = false;  // the last pass since the last change is on the screen
   QString description_;
-  quint64 scene_ = 0, light_ = 0, environment_ = 0, materials_ = 0;
+  quint64 scene_ = 0, light_ = 0, materials_ = 0;
+  std::shared_ptr<const EnvironmentMap> backdrop_;  // that was uploaded
   quint64 layersScene_ = 0, layersValues_ = 0, layersMarks_ = 0;
 };
 

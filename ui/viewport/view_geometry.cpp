@@ -14,9 +14,10 @@ constexpr float kNear = 0.01f, kFar = 100.0f;
 ViewGeometry::ViewGeometry(const Camera& camera, const QSize& size)
     : camera_(camera), size_(size.expandedTo(QSize(1, 1))) {
   const float distance = std::max(length(camera.target - camera.eye), 1e-6f);
+  const float nearest = camera.orthographic ? -kFar : kNear;  // parallel rays see what is behind the eye
   const float aspect = float(size_.width()) / float(size_.height());
   toClip_ =
-      glm::dmat4(camera.projection(aspect, kNear * distance, kFar * distance)) * glm::dmat4(camera.view());
+      glm::dmat4(camera.projection(aspect, nearest * distance, kFar * distance)) * glm::dmat4(camera.view());
   fromClip_ = inverse(toClip_);
 }
 

@@ -8,12 +8,14 @@
 #include "ui/viewport/manipulator.h"
 #include "ui/viewport/overlay.h"
 
+#include <QApplication>
 #include <QContextMenuEvent>
 #include <QDragEnterEvent>
-#include <QFileInfo>
 #include <QMimeData>
 #include <QMouseEvent>
+#include <QNativeGestureEvent>
 #include <QPainter>
+#include <QPointingDevice>
 #include <QWheelEvent>
 
 #include <utility>
@@ -21,7 +23,9 @@
 namespace prt::ui {
 
 namespace {
-constexpr float kDegreesPerPixel = 0.4f;  // of turning the environment
+constexpr float kDegreesPerPixel = 0.4f;     // of turning the environment
+constexpr float kStepsPerHeight = 12;        // of zooming by a drag over the whole view
+constexpr float kStepsPerMagnification = 6;  // of a pinch
 constexpr int kSettleMilliseconds = 180;
 }  // namespace
 
@@ -34,62 +38,108 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
   settle_.setSingleShot(true);
   settle_.setInterval(kSettleMilliseconds);
   connect(&settle_, &QTimer::timeout, this, [this] {
-    if (drag_ == Drag::None) canvas_->setInteracting(false);
+    if (drag_ == DragAction::None && !held_) canvas_->setInteracting(false);
   });
   chooseCanvas();
   connect(&session_.relighter(), &Relighter::changed, this, &Viewport::refresh);
-  connect(&session_.view(), &ViewState::changed, this, &Viewport::refresh);
-  connect(&session_, &Session::statusChanged, this, &Viewport::refresh);
+  connect(&session_.view(), &ViewState::changed, this, [this] {
+    refresh();
+    Q_EMIT hintChanged(hint());
+  });
   connect(&session_.layers(), &SurfaceLayers::changed, this, &Viewport::refresh);
-  connect(&session_.errors(), &ErrorEstimate::changed, this, &Viewport::refresh);
+  // These change what is written on the picture, not the picture.
+  connect(&session_, &Session::statusChanged, this, [this] { canvas_->widget()->update(); });
+  connect(&session_, &Session::selectionChanged, this, [this] { canvas_->widget()->update(); });
+  connect(&session_.errors(), &ErrorEstimate::changed, this, [this] { canvas_->widget()->update(); });
+}
+
+// ---- who draws ----
+
+void Viewport::setDrawing(Drawing drawing) {
+  if (drawing == drawing_) return;
+  drawing_ = drawing;
+  chooseCanvas();
+  Q_EMIT drawingChanged();
+}
+
+CanvasContext Viewport::canvasContext() {
+  return {session_.relighter(), session_.view(), session_.layers(), [this](QPainter& p) { paintOver(p); }};
 }
 
 void Viewport::chooseCanvas() {
-  if (!GlCanvas::available()) return useCpu(tr("this machine has no OpenGL 4.5"));
-  auto* canvas =
-      new GlCanvas({session_.relighter(), session_.view(), session_.layers(),
-                   [this](QPainter& p) { paintOver(p); }}, this);
-  canvas_ = canvas;
+  const GlSupport support = drawing_ == Drawing::Cpu ? GlSupport::None : GlCanvas::support();
+  if (drawing_ == Drawing::OpenGl && support == GlSupport::None)
+    session_.report(Severity::Warning, tr("This machine has no OpenGL 4.5: the CPU goes on drawing."));
+  // Without a graphics card OpenGL is the CPU too, and slower at it.
+  if (support == GlSupport::None || (support == GlSupport::Software && drawing_ == Drawing::Automatic))
+    return useCpu();
+  if (dynamic_cast<GlCanvas*>(canvas_)) return;
+  auto* canvas = new GlCanvas(canvasContext(), this);
   connect(
-      canvas, &GlCanvas::failed, this, [this](const QString& message) { useCpu(message); },
+      canvas, &GlCanvas::failed, this,
+      [this](const QString& message) {
+        session_.report(Severity::Warning, tr("The CPU draws from now on: %1.").arg(message));
+        useCpu();
+      },
       Qt::QueuedConnection);
+  show(canvas);
 }
 
-void Viewport::useCpu(const QString& why) {
-  if (canvas_) canvas_->widget()->deleteLater();
-  auto* canvas =
-      new CpuCanvas({session_.relighter(), session_.view(), session_.layers(),
-                   [this](QPainter& p) { paintOver(p); }}, this);
-  canvas_ = canvas;
-  canvas->setGeometry(rect());
-  canvas->show();
-  session_.report(Severity::Warning, tr("The viewport draws with the CPU: %1.").arg(why));
+void Viewport::useCpu() {
+  if (dynamic_cast<CpuCanvas*>(canvas_)) return;
+  auto* canvas = new CpuCanvas(canvasContext(), this);
+  connect(
+      canvas, &CpuCanvas::failed, this,
+      [this](const QString& message) { session_.report(Severity::Error, message); }, Qt::QueuedConnection);
+  show(canvas);
 }
+
+void Viewport::show(Canvas* canvas) {
+  if (canvas_) {
+    canvas_->widget()->hide();
+    canvas_->widget()->deleteLater();
+  }
+  canvas_ = canvas;
+  canvas->setThorough(pictureMode_);
+  canvas->widget()->setGeometry(rect());
+  canvas->widget()->lower();  // messages stay on top
+  canvas->widget()->show();
+}
+
+void Viewport::refresh() {
+  canvas_->invalidate();
+}
+
+void Viewport::resizeEvent(QResizeEvent*) {
+  canvas_->widget()->setGeometry(rect());
+}
+
+// ---- mouse ----
 
 QString Viewport::hint() const {
   switch (drag_) {
-    case Drag::Orbit:
-      return tr("Orbiting \u2014 Shift pans");
-    case Drag::Pan:
+    case DragAction::Orbit:
+      return tr("Orbiting");
+    case DragAction::Pan:
       return tr("Panning");
-    case Drag::TurnLight:
+    case DragAction::Zoom:
+      return tr("Zooming");
+    case DragAction::TurnLight:
       return tr("Turning the environment: %1\u00b0").arg(session_.environmentAngle(), 0, 'f', 1);
-    case Drag::None:
+    case DragAction::None:
       break;
   }
   for (const Manipulator* each : {held_, hovered_})
     if (each && !each->hint().isEmpty()) return each->hint();
-  return tr(
-      "Shift+drag turns the light   \u00b7   Alt+drag or middle orbits   \u00b7   +Shift pans   \u00b7   "
-      "wheel zooms   \u00b7   F frames   \u00b7   R resets");
+  return navigationHint(session_.view().navigation());
 }
 
 QList<Binding> Viewport::bindings() const {
-  QList<Binding> all{{tr("Shift + drag"), tr("turn the environment, with either button")},
-                     {tr("Alt + drag or Middle drag"), tr("orbit; with Shift as well, pan")},
-                     {tr("Wheel"), tr("zoom towards the pointer")}};
+  QList<Binding> all;
+  for (const auto& [keys, what] : navigationKeys(session_.view().navigation())) all << Binding{keys, what};
   for (const Manipulator* each : manipulators_) all << each->bindings();
-  all << Binding{tr("Drop"), tr("a mesh or project opens, an HDR becomes the light")};
+  all << Binding{tr("Click"), tr("select the object")} << Binding{tr("Right click"), tr("menu")}
+      << Binding{tr("Drop"), tr("a mesh or project opens, an HDR becomes the light")};
   return all;
 }
 
@@ -98,25 +148,18 @@ void Viewport::setPictureMode(bool on) {
   canvas_->setThorough(on);
 }
 
-void Viewport::resizeEvent(QResizeEvent*) {
-  canvas_->widget()->setGeometry(rect());
-}
-
-Viewport::Drag Viewport::dragOf(Qt::MouseButton button, Qt::KeyboardModifiers modifiers) const {
-  const bool shift = modifiers & Qt::ShiftModifier, alt = modifiers & Qt::AltModifier;
-  if (button == Qt::MiddleButton || (alt && button == Qt::LeftButton)) return shift ? Drag::Pan : Drag::Orbit;
-  if (shift && (button == Qt::LeftButton || button == Qt::RightButton)) return Drag::TurnLight;
-  return Drag::None;
-}
-
 void Viewport::mousePressEvent(QMouseEvent* event) {
   setFocus();
-  if (drag_ != Drag::None || held_ || pressManipulator(event)) return;
-  drag_ = dragOf(event->button(), event->modifiers());
-  if (drag_ == Drag::None) return;
+  if (drag_ != DragAction::None || held_ || pressManipulator(event)) return;
+  press_.reset();
+  drag_ = dragAction(session_.view().navigation(), event->button(), event->modifiers());
+  if (drag_ == DragAction::None) {
+    press_ = Press{event->position(), event->button()};
+    return;
+  }
   dragButton_ = event->button();
-  last_ = event->position();
-  if (drag_ == Drag::TurnLight) session_.document().beginGesture(tr("Turn environment"));
+  last_ = dragFrom_ = event->position();
+  if (drag_ == DragAction::TurnLight) session_.document().beginGesture(tr("Turn environment"));
   interact();
   Q_EMIT hintChanged(hint());
 }
@@ -128,21 +171,43 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     Q_EMIT hintChanged(hint());
     return;
   }
-  if (drag_ == Drag::None) return hoverManipulators(event->position());
-  const QPointF moved = event->position() - last_;
-  last_ = event->position();
-  const float scale = 1.0f / float(height());
-  const float dx = float(moved.x()), dy = float(moved.y());
-  if (drag_ == Drag::Orbit) session_.view().orbit(dx * scale, dy * scale);
-  if (drag_ == Drag::Pan) session_.view().pan(dx * scale, dy * scale);
-  if (drag_ == Drag::TurnLight) turnLight(dx);
+  if (press_ && (event->position() - press_->at).manhattanLength() >= QApplication::startDragDistance())
+    press_.reset();
+  if (drag_ == DragAction::None) return event->buttons() ? void() : hoverManipulators(event->position());
+  drag(event->position() - std::exchange(last_, event->position()));
   interact();
   Q_EMIT hintChanged(hint());
+}
+
+void Viewport::drag(const QPointF& moved) {
+  const float dx = float(moved.x()), dy = float(moved.y()), scale = 1.0f / float(height());
+  switch (drag_) {
+    case DragAction::Orbit:
+      return session_.view().orbit(dx * scale, dy * scale);
+    case DragAction::Pan:
+      return session_.view().pan(dx * scale, dy * scale);
+    case DragAction::Zoom:
+      return zoom((dx - dy) * scale * kStepsPerHeight, dragFrom_);
+    case DragAction::TurnLight:
+      return turnLight(dx);
+    case DragAction::None:
+      return;
+  }
 }
 
 void Viewport::mouseReleaseEvent(QMouseEvent* event) {
   if (held_ && event->button() == Qt::LeftButton) return letGo(true, event->position());
   if (event->button() == dragButton_) endDrag();
+  const auto press = std::exchange(press_, std::nullopt);
+  if (press && press->button == event->button()) click(*press, event->globalPosition(), event->modifiers());
+}
+
+void Viewport::click(const Press& press, const QPointF& globalAt, Qt::KeyboardModifiers modifiers) {
+  if (press.button == Qt::MiddleButton) return;
+  if (const auto hit = pick(press.at)) session_.selectObject(int(hit->object));
+  if (press.button == Qt::LeftButton) Q_EMIT clicked(press.at, modifiers);
+  if (press.button == Qt::RightButton && modifiers == Qt::NoModifier)
+    Q_EMIT menuRequested(globalAt.toPoint());
 }
 
 void Viewport::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -169,12 +234,71 @@ void Viewport::focusOutEvent(QFocusEvent*) {
   endDrag();
 }
 
+void Viewport::endDrag() {
+  if (drag_ == DragAction::None) return;
+  if (drag_ == DragAction::TurnLight) session_.document().endGesture();
+  drag_ = DragAction::None;
+  dragButton_ = Qt::NoButton;
+  settle_.start();
+  Q_EMIT hintChanged(hint());
+}
+
+// To the right is to the right: what stands behind the model follows the pointer.
+void Viewport::turnLight(float pixels) {
+  session_.setEnvironmentAngle(session_.environmentAngle() - pixels * kDegreesPerPixel);
+}
+
+void Viewport::zoom(float steps, const QPointF& at) {
+  session_.view().zoom(steps, float(at.x() - 0.5 * width()) / float(height()),
+                       float(0.5 * height() - at.y()) / float(height()));
+}
+
+void Viewport::wheelEvent(QWheelEvent* event) {
+  // Some mice tell pixels too: what it is counts.
+  const bool fingers =
+      !event->pixelDelta().isNull() && event->device()->type() == QInputDevice::DeviceType::TouchPad;
+  const QPointF turned = fingers ? QPointF(event->pixelDelta()) : QPointF(event->angleDelta());
+  const WheelMove move = wheelMove(fingers, turned.x(), turned.y(), event->modifiers());
+  const float scale = 1.0f / float(height());
+  if (move.zoomSteps != 0) zoom(float(move.zoomSteps), event->position());
+  if (move.panX != 0 || move.panY != 0)
+    session_.view().pan(float(move.panX) * scale, float(move.panY) * scale);
+  if (move.orbitX != 0 || move.orbitY != 0)
+    session_.view().orbit(float(move.orbitX) * scale, float(move.orbitY) * scale);
+  interact();
+  event->accept();
+}
+
+bool Viewport::event(QEvent* event) {
+  if (event->type() != QEvent::NativeGesture) return QWidget::event(event);
+  const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+  if (gesture->gestureType() != Qt::ZoomNativeGesture) return QWidget::event(event);
+  zoom(float(gesture->value()) * kStepsPerMagnification, gesture->position());
+  interact();
+  return true;
+}
+
+// The mouse's menu comes when the button goes up without a drag.
+void Viewport::contextMenuEvent(QContextMenuEvent* event) {
+  if (event->reason() == QContextMenuEvent::Keyboard) Q_EMIT menuRequested(mapToGlobal(rect().center()));
+  event->accept();
+}
+
+// The camera's pixels are those of the screen.
+std::optional<SurfaceHit> Viewport::pick(const QPointF& at) const {
+  const auto& scene = session_.relighter().scene();
+  if (!scene) return std::nullopt;
+  const double scale = devicePixelRatioF();
+  return pickSurface(*scene, session_.view().camera(), float(at.x() * scale), float(at.y() * scale),
+                     qRound(width() * scale), qRound(height() * scale));
+}
+
 // ---- manipulators ----
 
 void Viewport::addManipulator(Manipulator* manipulator) {
   manipulator->setParent(this);
   manipulators_.push_back(manipulator);
-  connect(manipulator, &Manipulator::changed, this, &Viewport::refresh);
+  connect(manipulator, &Manipulator::changed, this, [this] { canvas_->widget()->update(); });
 }
 
 void Viewport::paintOver(QPainter& painter) {
@@ -227,34 +351,7 @@ void Viewport::letGo(bool keep, const QPointF& at) {
   Q_EMIT hintChanged(hint());
 }
 
-void Viewport::endDrag() {
-  if (drag_ == Drag::None) return;
-  if (drag_ == Drag::TurnLight) session_.document().endGesture();
-  drag_ = Drag::None;
-  dragButton_ = Qt::NoButton;
-  settle_.start();
-  Q_EMIT hintChanged(hint());
-}
-
-// To the right is to the right: what stands behind the model follows the pointer.
-void Viewport::turnLight(float pixels) {
-  session_.setEnvironmentAngle(session_.environmentAngle() - pixels * kDegreesPerPixel);
-}
-
-void Viewport::wheelEvent(QWheelEvent* event) {
-  const QPointF at = event->position();
-  const float x = float(at.x() - 0.5 * width()) / float(height()),
-              y = float(0.5 * height() - at.y()) / float(height());
-  const QPoint turned = event->angleDelta();
-  session_.view().zoom(float(turned.y() != 0 ? turned.y() : turned.x()) / 120.0f, x, y);
-  interact();
-  event->accept();
-}
-
-// Right drags turn the light: no menu after them.
-void Viewport::contextMenuEvent(QContextMenuEvent* event) {
-  event->accept();
-}
+// ---- files ----
 
 void Viewport::dragEnterEvent(QDragEnterEvent* event) {
   for (const QUrl& url : event->mimeData()->urls())
@@ -270,10 +367,6 @@ void Viewport::dropEvent(QDropEvent* event) {
 void Viewport::interact() {
   canvas_->setInteracting(true);
   settle_.start();
-}
-
-void Viewport::refresh() {
-  canvas_->invalidate();
 }
 
 }  // namespace prt::ui
