@@ -10,6 +10,7 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QMouseEvent>
+#include <QScrollArea>
 #include <QWindow>
 
 #include <nlohmann/json.hpp>
@@ -185,6 +186,9 @@ class Bench {
 
   nlohmann::json slideExponent(int frames) {
     auto* row = window_.findChild<PropertyRow*>(QStringLiteral("objects[0].material.exponent"));
+    window_.bringToFront(QStringLiteral("material"));
+    for (QWidget* each = row; each; each = each->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(each)) area->ensureWidgetVisible(row);
     if (!row) throw ResourceError("there is no row for the exponent", "bench", {});
     return drag(*row->editor(), Qt::LeftButton, Qt::NoModifier, frames, false).json();
   }

@@ -5,6 +5,8 @@
 #include <QElapsedTimer>
 #include <QPainter>
 
+#include <utility>
+
 namespace prt::ui {
 
 namespace {
@@ -22,7 +24,9 @@ void layOver(QImage& image, const Image& layer) {
     for (int x = 0; x < image.width(); ++x) {
       const float* over = layer.pixel(x, y);
       if (over[3] <= 0) continue;
-      const auto mixed = [&](int c, int below) { return qRound(255 * over[c] + (1 - over[3]) * float(below)); };
+      const auto mixed = [&](int c, int below) {
+        return qRound(255 * over[c] + (1 - over[3]) * float(below));
+      };
       row[x] = qRgb(mixed(0, qRed(row[x])), mixed(1, qGreen(row[x])), mixed(2, qBlue(row[x])));
     }
   }
@@ -36,7 +40,8 @@ void CpuCanvas::drawInto(QImage& image, LiveRenderer& renderer, const LiveScene&
   if (image.size() != QSize(width, height)) image = QImage(width, height, QImage::Format_RGB32);
   // Rows of 32-bit pixels have no padding.
   renderer.draw(scene, picture,
-                {reinterpret_cast<std::uint32_t*>(image.bits()), std::size_t(width) * std::size_t(height)}, job);
+                {reinterpret_cast<std::uint32_t*>(image.bits()), std::size_t(width) * std::size_t(height)},
+                job);
   const bool fits = scene.scene && layers.values.size() == scene.scene->mesh.vertexCount();
   if (!scene.scene || (!fits && layers.marks.empty())) return;
   const OverlayPicture over{picture.camera, width, height, layers.grid, layers.pixelScale};
@@ -60,6 +65,7 @@ CpuCanvas::~CpuCanvas() {
 
 void CpuCanvas::invalidate() {
   ++version_;
+  broken_ = false;  // what was refused may be another thing by now
   if (smooth_) smooth_->job.cancel();
   update();
 }
@@ -130,24 +136,23 @@ void CpuCanvas::startSmooth() {
   if (smooth_) smooth_->job.cancel();
   smooth_ = std::make_shared<Smooth>();
   smooth_->version = version_;
-  smoothing_.start(
-      [this, smooth = smooth_, scene = liveScene(), picture = livePicture(pixels(1), smoothGrid()),
-       layers = layersNow(1, 2)] {
-        QImage image;
-        try {
-          LiveRenderer renderer;
-          drawInto(image, renderer, scene, picture, layers, smooth->job);
-        } catch (const std::exception&) {
-          return;  // cancelled; or the frame on the screen told already
-        }
-        QMetaObject::invokeMethod(
-            this,
-            [this, smooth, image] {
-              smooth->image = image;
-              takeSmooth(smooth);
-            },
-            Qt::QueuedConnection);
-      });
+  smoothing_.start([this, smooth = smooth_, scene = liveScene(),
+                    picture = livePicture(pixels(1), smoothGrid()), layers = layersNow(1, 2)] {
+    QImage image;
+    try {
+      LiveRenderer renderer;
+      drawInto(image, renderer, scene, picture, layers, smooth->job);
+    } catch (const std::exception&) {
+      return;  // cancelled; or the frame on the screen told already
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, smooth, image] {
+          smooth->image = image;
+          takeSmooth(smooth);
+        },
+        Qt::QueuedConnection);
+  });
 }
 
 void CpuCanvas::takeSmooth(const std::shared_ptr<Smooth>& smooth) {
@@ -165,7 +170,8 @@ void CpuCanvas::paintEvent(QPaintEvent*) {
       drawFrame();
     } catch (const std::exception& error) {
       broken_ = true;
-      Q_EMIT failed(QString::fromUtf8(error.what()));
+      const QString problem = QString::fromUtf8(error.what());
+      if (std::exchange(problem_, problem) != problem) Q_EMIT failed(problem);
     }
     painter.setRenderHint(QPainter::SmoothPixmapTransform, frame_.size() != pixels(1));
     painter.drawImage(rect(), frame_);

@@ -56,8 +56,8 @@ class CpuCanvas : public QWidget, public Canvas {
     int grid = 1;
   };
 
-  static void drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene, const LivePicture& picture,
-                       const Layers& layers, Job& job);
+  static void drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene,
+                       const LivePicture& picture, const Layers& layers, Job& job);
   Layers layersNow(double scale, int grid) const;
   QSize pixels(double scale) const;
   LiveScene liveScene() const;
@@ -74,6 +74,7 @@ class CpuCanvas : public QWidget, public Canvas {
   quint64 version_ = 1;             // of what is to be seen
   quint64 drawn_ = 0;               // of frame_
   bool interacting_ = false, thorough_ = false, coarse_ = false, broken_ = false;
+  QString problem_;  // that was told last
   double milliseconds_ = 0;
   quint64 frames_ = 0;
   QTimer rest_;

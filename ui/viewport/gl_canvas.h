@@ -10,7 +10,7 @@
 namespace prt::gl {
 class SceneRenderer;
 class SurfaceOverlay;
-}
+}  // namespace prt::gl
 
 namespace prt::ui {
 

@@ -1,7 +1,7 @@
 #include "ui/viewport/viewport.h"
 
-#include "ui/model/session.h"
 #include "ui/model/error_estimate.h"
+#include "ui/model/session.h"
 #include "ui/viewport/cpu_canvas.h"
 #include "ui/viewport/error_legend.h"
 #include "ui/viewport/gl_canvas.h"
