@@ -10,7 +10,8 @@ uniform sampler2DMS surfaceDepths;
 uniform int samples;
 uniform int corners;
 uniform float halfWidth, reach;  // pixels
-uniform float fill, hidden, lift;
+uniform float fill, hidden;
+uniform float lift, slack;  // how far behind the surface still counts as on it: share of its distance, and length
 uniform vec3 depthTerms;  // of the projection: [2][2], [3][2], [2][3]
 
 // Distance along the optical axis from a depth in normalised device coordinates.
@@ -35,7 +36,7 @@ void main() {
     depth = mix(vFromDepth, vToDepth, t);
   }
   float surface = surfaceAt(ivec2(gl_FragCoord.xy));
-  bool seen = surface >= 1.0 || distanceAt(depth) <= (1.0 + lift) * distanceAt(2.0 * surface - 1.0);
+  bool seen = surface >= 1.0 || distanceAt(depth) <= (1.0 + lift) * distanceAt(2.0 * surface - 1.0) + slack;
   float opacity = seen ? 1.0 : hidden;
   if (corners == 3) cover = vec4(fill * opacity, 0.0, 0.0, 1.0);
   else cover = vec4(opacity * clamp(halfWidth - away + 0.5, 0.0, 1.0), opacity * clamp(reach - away + 0.5, 0.0, 1.0), 0.0, 1.0);

@@ -20,6 +20,7 @@ constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUn
 Vec2 depthRange(const Camera& camera, const Box3& box) {
   const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
   const float middle = dot(camera.eye - box.center(), camera.axes().normal);
+  if (camera.orthographic) return {middle - 1.01f * radius, middle + 1.01f * radius};
   return {std::max(middle - 1.01f * radius, 1e-3f * radius),
           std::max(middle + 1.01f * radius, 2e-3f * radius)};
 }
@@ -146,6 +147,8 @@ void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   surfaceProgram_.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
   surfaceProgram_.set("eye", picture.camera.eye);
+  surfaceProgram_.set("axis", picture.camera.axes().normal);
+  surfaceProgram_.set("parallel", picture.camera.orthographic ? 1 : 0);
   scale_.bind(kScaleUnit);
   surfaceProgram_.use();
   glBindVertexArray(meshArray_.id());
@@ -169,7 +172,9 @@ void SurfaceOverlay::drawMarks(const OverlayPicture& picture) {
   marksProgram_.set("depthTerms", Vec3(projection[2][2], projection[3][2], projection[2][3]));
   marksProgram_.set("fill", kMarkFill);
   marksProgram_.set("hidden", kHiddenMark);
-  marksProgram_.set("lift", kMarkLift);
+  const Camera& camera = picture.camera;
+  marksProgram_.set("lift", camera.orthographic ? 0.0f : kMarkLift);
+  marksProgram_.set("slack", camera.orthographic ? kMarkLift * length(camera.eye - camera.target) : 0.0f);
   drawMarks(picture, triangles_, 3, triangleCount_);
   drawMarks(picture, edges_, 2, edgeCount_);
   drawMarks(picture, points_, 1, pointCount_);

@@ -6,6 +6,7 @@
 #include "libprt/shade/raster.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace prt {
 namespace {
@@ -13,32 +14,34 @@ namespace {
 /// A point on the picture.
 struct Projected {
   float x = 0, y = 0;  // pixels, from the top left
-  float inverseDepth =
-      0;  // 1 / distance along the optical axis; straight lines keep it linear on the picture
+  float depth = 0;     // linear along straight lines of the picture, see Projector::distance()
   bool inFront = false;
 };
 
 class Projector {
  public:
   explicit Projector(const OverlayPicture& picture)
-      : axes_(picture.camera.axes()),
-        eye_(picture.camera.eye),
-        width_(float(picture.width)),
-        height_(float(picture.height)),
-        scale_(0.5f * height_ / std::tan(0.5f * picture.camera.verticalFov)) {}
+      : camera_(picture.camera), axes_(picture.camera.axes()), width_(picture.width), height_(picture.height) {}
 
   Projected operator()(const Vec3& p) const {
-    const Vec3 local = axes_.toLocal(p - eye_);
-    const float depth = -local.z;
-    if (!(depth > 1e-6f * length(local))) return {};
-    return {0.5f * width_ + scale_ * local.x / depth, 0.5f * height_ - scale_ * local.y / depth, 1 / depth,
-            true};
+    const float away = distanceTo(p);
+    const auto place = camera_.project(p, width_, height_);
+    if (!place || (!camera_.orthographic && !(away > 1e-6f * length(p - camera_.eye)))) return {};
+    return {place->x, place->y, camera_.orthographic ? away : 1 / away, true};
+  }
+  /// Along the optical axis.
+  float distanceTo(const Vec3& p) const { return dot(camera_.eye - p, axes_.normal); }
+  float distance(float depth) const { return camera_.orthographic ? depth : 1 / depth; }
+  /// Whether something at a distance is seen where the surface is at another.
+  bool seen(float distance, float surface) const {
+    if (camera_.orthographic) return distance <= surface + kMarkLift * length(camera_.eye - camera_.target);
+    return distance <= surface * (1 + kMarkLift);
   }
 
  private:
+  const Camera& camera_;
   Frame axes_;
-  Vec3 eye_;
-  float width_, height_, scale_;
+  int width_, height_;
 };
 
 /// How much of each pixel marks cover: strongest mark, not the sum, so that what overlaps does not add up.
@@ -61,7 +64,7 @@ class MarkCoverage {
             std::max(p.y, q.y) + reach + 1, [&](std::size_t pixel, const Vec2& at) {
               const float t = square > 0 ? std::clamp(dot(at - from, along) / square, 0.0f, 1.0f) : 0.0f;
               const float away = length(at - from - t * along);
-              const float opacity = opacityAt(pixel, p.inverseDepth + t * (q.inverseDepth - p.inverseDepth));
+              const float opacity = opacityAt(pixel, p.depth + t * (q.depth - p.depth));
               raise(mark_[pixel], opacity * std::clamp(core - away + 0.5f, 0.0f, 1.0f));
               raise(rim_[pixel], opacity * std::clamp(reach - away + 0.5f, 0.0f, 1.0f));
             });
@@ -77,8 +80,7 @@ class MarkCoverage {
               const float v = ((at.x - p.x) * (r.y - p.y) - (at.y - p.y) * (r.x - p.x)) / area;
               const float w = ((q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x)) / area;
               if (v < 0 || w < 0 || v + w > 1) return;
-              const float depth = p.inverseDepth + v * (q.inverseDepth - p.inverseDepth) +
-                                  w * (r.inverseDepth - p.inverseDepth);
+              const float depth = p.depth + v * (q.depth - p.depth) + w * (r.depth - p.depth);
               raise(mark_[pixel], kMarkFill * opacityAt(pixel, depth));
             });
   }
@@ -98,8 +100,8 @@ class MarkCoverage {
   static constexpr float kRimOpacity = 0.6f;
 
   static void raise(float& value, float to) { value = std::max(value, to); }
-  float opacityAt(std::size_t pixel, float inverseDepth) const {
-    return inverseDepth * (1 + kMarkLift) >= surface_[pixel] ? 1.0f : kHiddenMark;
+  float opacityAt(std::size_t pixel, float depth) const {
+    return project_.seen(project_.distance(depth), surface_[pixel]) ? 1.0f : kHiddenMark;
   }
 
   template <class Visit>
@@ -116,22 +118,30 @@ class MarkCoverage {
 
   const OverlayPicture& picture_;
   Projector project_;
-  const std::vector<float>& surface_;  // inverse depth, 0 where nothing is seen
+  const std::vector<float>& surface_;  // distance, infinite where nothing is seen
   std::vector<float> mark_, rim_;
 };
 
-/// False colour of one fragment, display-encoded.
-Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f, const Vec3& eye) {
+Vec3 weightsOf(const Fragment& f) {
+  return {1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y};
+}
+
+Vec3 positionOf(const TriMesh& mesh, const Fragment& f) {
   const UVec3& t = mesh.triangles[f.triangle];
-  const Vec3 weight(1 - f.barycentric.x - f.barycentric.y, f.barycentric);
-  const Vec3 p =
-      weight.x * mesh.positions[t.x] + weight.y * mesh.positions[t.y] + weight.z * mesh.positions[t.z];
+  const Vec3 weight = weightsOf(f);
+  return weight.x * mesh.positions[t.x] + weight.y * mesh.positions[t.y] + weight.z * mesh.positions[t.z];
+}
+
+/// False colour of one fragment, display-encoded.
+Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f, const Camera& camera) {
+  const UVec3& t = mesh.triangles[f.triangle];
+  const Vec3 weight = weightsOf(f);
   const Vec3 n = weight.x * mesh.normals[t.x] + weight.y * mesh.normals[t.y] + weight.z * mesh.normals[t.z];
   const bool known = values[t.x] >= 0 && values[t.y] >= 0 && values[t.z] >= 0;
-  const float value =
-      known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
-  const float lengths = length(n) * length(eye - p);
-  return overlayShade(lengths > 0 ? dot(n, eye - p) / lengths : 1.0f) * magnitudeColor(value);
+  const float value = known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
+  const float size = length(n);
+  const float cosine = size > 0 ? dot(n, camera.towardsViewer(positionOf(mesh, f))) / size : 1.0f;
+  return overlayShade(cosine) * magnitudeColor(value);
 }
 
 }  // namespace
@@ -150,7 +160,9 @@ Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, con
                          std::to_string(mesh.vertexCount()) + " vertices",
                      "overlay", "give one value for each vertex");
   Image image(picture.width, picture.height, 4);
-  std::vector<float> surface(std::size_t(picture.width) * std::size_t(picture.height), 0.0f);
+  std::vector<float> surface(std::size_t(picture.width) * std::size_t(picture.height),
+                             std::numeric_limits<float>::infinity());
+  const Projector project(picture);
   const Rasterizer rasterizer(mesh, picture.camera, picture.width, picture.height, picture.grid, job);
   const float whole = float(picture.grid * picture.grid);
   parallelFor(job, 0, rasterizer.tileCount(), 1, [&](std::size_t tile, std::size_t) {
@@ -162,15 +174,11 @@ Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, con
         float* out = image.pixel(fragments.x + x, fragments.y + y);
         float& nearest =
             surface[std::size_t(fragments.y + y) * std::size_t(picture.width) + std::size_t(fragments.x + x)];
-        for (int s = 0; s < picture.grid * picture.grid; ++s)
-          nearest = std::max(
-              nearest,
-              samples.inverseDepth[std::size_t((y * picture.grid + s / picture.grid) * samples.stride +
-                                               x * picture.grid + s % picture.grid)]);
-        if (values.empty()) continue;
         for (const Fragment& f : fragments.pixel(std::size_t(y * fragments.width + x))) {
+          nearest = std::min(nearest, project.distanceTo(positionOf(mesh, f)));
+          if (values.empty()) continue;
           const float share = float(f.samples) / whole;
-          const Rgb color = fragmentColor(mesh, values, f, picture.camera.eye);
+          const Rgb color = fragmentColor(mesh, values, f, picture.camera);
           for (int c = 0; c < 3; ++c) out[c] += share * color[c];
           out[3] += share;
         }
