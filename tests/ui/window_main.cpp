@@ -1,3 +1,4 @@
+#include "tests/ui/save_until_killed.h"
 #include "ui/viewport/gl_canvas.h"
 #include "ui/widgets/theme.h"
 
@@ -7,6 +8,7 @@
 #include <QStandardPaths>
 
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 
 int main(int argc, char** argv) {
@@ -22,6 +24,8 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("prt-studio-test"));
   QApplication::setOrganizationName(QStringLiteral("PRT Studio"));
+  if (argc == 4 && std::strcmp(argv[1], "--save-until-killed") == 0)
+    return prt::test::saveUntilKilled(QString::fromLocal8Bit(argv[2]), QString::fromLocal8Bit(argv[3]));
   prt::ui::applyTheme(application, prt::ui::darkTheme());
   return RUN_ALL_TESTS();
 }
