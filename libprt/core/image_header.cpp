@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,7 @@ class Bytes {
   explicit Bytes(std::span<const std::byte> rest) : rest_(rest) {}
 
   bool failed() const { return failed_; }
+  bool atEnd() const { return !failed_ && rest_.empty(); }
   std::span<const std::byte> take(std::size_t count) {
     if (failed_ || count > rest_.size()) {
       failed_ = true;
@@ -68,6 +70,49 @@ std::uint32_t crc32(std::span<const std::byte> bytes) {
 
 /// Beyond every limit, and far from overflow when two are multiplied or many added.
 constexpr std::int64_t kFar = std::int64_t(1) << 31;
+
+/// Whether an EXR attribute of a known type is as long as the file says. OpenEXR reads such a type by its own
+/// rules, whatever the length: with another one it would take what follows for something else, and believe
+/// lengths of gigabytes there.
+bool fitsItsType(const std::string& type, Bytes value, std::size_t size) {
+  static const std::map<std::string_view, std::size_t> kSizes{{"box2f", 16},
+                                                              {"box2i", 16},
+                                                              {"chromaticities", 32},
+                                                              {"compression", 1},
+                                                              {"deepImageState", 1},
+                                                              {"double", 8},
+                                                              {"envmap", 1},
+                                                              {"float", 4},
+                                                              {"int", 4},
+                                                              {"keycode", 28},
+                                                              {"lineOrder", 1},
+                                                              {"m33d", 72},
+                                                              {"m33f", 36},
+                                                              {"m44d", 128},
+                                                              {"m44f", 64},
+                                                              {"rational", 8},
+                                                              {"tiledesc", 9},
+                                                              {"timecode", 8},
+                                                              {"v2d", 16},
+                                                              {"v2f", 8},
+                                                              {"v2i", 8},
+                                                              {"v3d", 24},
+                                                              {"v3f", 12},
+                                                              {"v3i", 12}};
+  if (const auto known = kSizes.find(type); known != kSizes.end()) return size == known->second;
+  if (type == "chlist") {
+    while (!value.name().empty()) value.take(16);
+    return value.atEnd();
+  }
+  if (type == "preview") {
+    const std::uint64_t width = std::uint32_t(value.littleEndian()),
+                        height = std::uint32_t(value.littleEndian());
+    return size >= 8 && width * height == (size - 8) / 4 && size % 4 == 0;
+  }
+  if (type == "stringvector")
+    while (!value.failed() && !value.atEnd()) value.take(std::uint32_t(value.littleEndian()));
+  return !value.failed();
+}
 
 /// The attributes of one part of an EXR that say how large it is.
 struct ExrPart {
@@ -158,11 +203,11 @@ std::optional<ImageHeader> readExrHeader(std::span<const std::byte> file) {
     if (manyParts && name.empty()) break;
     ExrPart part;
     for (; !name.empty(); name = bytes.name()) {
-      bytes.name();  // its type
+      const std::string type = bytes.name();
       const std::int32_t size = bytes.littleEndian();
       if (size < 0) return {};
       const auto value = bytes.take(std::size_t(size));
-      if (bytes.failed()) return {};
+      if (bytes.failed() || !fitsItsType(type, Bytes(value), value.size())) return {};
       part.read(name, Bytes(value));
     }
     if (bytes.failed() || part.width <= 0 || part.height <= 0) return {};
