@@ -52,6 +52,7 @@ TEST_F(ViewportTest, TheVaseStandsInTheMiddle) {
 }
 
 TEST_F(ViewportTest, ATwoSidedMaterialIsDrawnWhileItIsBaked) {
+  window.viewport().setDrawing(Drawing::OpenGl);
   openAndSettle();
   CpuCanvas cpu({session.relighter(), session.view(), session.layers(), [](QPainter&) {}}, nullptr);
   cpu.resize(64, 48);
@@ -72,6 +73,7 @@ TEST_F(ViewportTest, ATwoSidedMaterialIsDrawnWhileItIsBaked) {
     EXPECT_FALSE(picture().isNull());
     EXPECT_FALSE(cpu.grabPicture().isNull());
   }
+  window.viewport().setDrawing(Drawing::Automatic);
 }
 
 TEST_F(ViewportTest, AltDragAndMiddleDragOrbit) {

@@ -183,7 +183,8 @@ QWidget* LightDock::makeAngleRow() {
   auto* title = new QLabel(tr("Rotation"));
   setRole(title, "muted");
   angle_->setObjectName(QStringLiteral("environmentAngle"));
-  angle_->setToolTip(parameterTip(parameterAt("lights[0].rotation")) + tr("<p>Shift + drag in the view turns it too.</p>"));
+  angle_->setToolTip(parameterTip(parameterAt("lights[0].rotation")) +
+                     tr("<p>Shift + drag in the view turns it too.</p>"));
   right->addStretch(1);
   right->addWidget(title);
   right->addWidget(angle_);
@@ -232,13 +233,13 @@ Section* LightDock::makeViewSection() {
   auto* section = new Section(tr("View"));
   exposure_->setObjectName(QStringLiteral("exposure"));
   curve_->addItems({tr("linear"), tr("filmic")});
-  background_->addItems({tr("environment"), tr("plain")});
+  background_->addItems({tr("environment"), tr("blurred"), tr("plain")});  // as BackgroundMode
   section->add(
       fieldRow(tr("Exposure"), exposure_, tr("Brightness of the picture; the light itself stays as it is.")));
   section->add(fieldRow(tr("Tone curve"), curve_,
                         tr("How bright values are fitted to the screen: cut at white, or rolled off.")));
-  section->add(
-      fieldRow(tr("Background"), background_, tr("The environment behind the model, or plain grey.")));
+  section->add(fieldRow(tr("Background"), background_,
+                        tr("The environment behind the model, sharp or blurred, or plain grey.")));
   const auto setTone = [this] {
     session_.view().setTone({.exposure = float(exposure_->value()),
                              .curve = curve_->currentIndex() == 1 ? ToneCurve::Filmic : ToneCurve::Linear});
@@ -247,9 +248,8 @@ Section* LightDock::makeViewSection() {
   connect(exposure_, &NumberField::resetRequested, this,
           [this, setTone] { exposure_->setValue(0), setTone(); });
   connect(curve_, &QComboBox::activated, this, setTone);
-  connect(background_, &QComboBox::activated, this, [this](int index) {
-    session_.view().setBackground(index == 0 ? BackgroundMode::Environment : BackgroundMode::Plain);
-  });
+  connect(background_, &QComboBox::activated, this,
+          [this](int index) { session_.view().setBackground(BackgroundMode(index)); });
   return section;
 }
 
@@ -305,7 +305,7 @@ void LightDock::refresh() {
   name_->setToolTip(path);
   exposure_->setValue(session_.view().tone().exposure);
   curve_->setCurrentIndex(session_.view().tone().curve == ToneCurve::Filmic ? 1 : 0);
-  background_->setCurrentIndex(session_.view().background() == BackgroundMode::Environment ? 0 : 1);
+  background_->setCurrentIndex(int(session_.view().background()));
 }
 
 }  // namespace prt::ui
