@@ -51,12 +51,10 @@ Contents contentsOf(ProjectFile& project) {
     auto& arrays =
         contents
             .products[info.stage + " " + info.key + " " + info.meta + (info.checkpoint ? " checkpoint" : "")];
-    if (info.checkpoint)
-      for (const auto& [name, array] : project.findCheckpoint(info.stage, info.key)->arrays)
-        arrays[name] = array.bytes;
-    else
-      for (const auto& [name, array] : project.find(info.stage, info.key)->data.arrays)
-        arrays[name] = array.bytes;
+    const auto checkpoint = info.checkpoint ? project.findCheckpoint(info.stage, info.key) : nullptr;
+    const auto product = info.checkpoint ? nullptr : project.find(info.stage, info.key);
+    for (const auto& [name, array] : checkpoint ? checkpoint->arrays : product->data.arrays)
+      arrays[name] = array.bytes;
   }
   return contents;
 }
