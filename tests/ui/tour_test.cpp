@@ -13,6 +13,7 @@
 #include "ui/widgets/parameter_slider.h"
 #include "ui/widgets/preset_grid.h"
 
+#include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFileDialog>
@@ -100,7 +101,7 @@ class TourTest : public test::StudioTest {
     });
     poll->start(20);
   }
-  std::size_t lights() const { return session.document().recipe().lights.size(); }
+  std::size_t lights() { return session.document().recipe().lights.size(); }
 };
 
 TEST_F(TourTest, FromADroppedMeshToASavedProjectThatSurvivesBeingKilled) {
@@ -209,6 +210,7 @@ TEST_F(TourTest, FromADroppedMeshToASavedProjectThatSurvivesBeingKilled) {
   }
 
   // Opened again, it is the same picture.
+  session.project().setQuestion({});
   session.open(QStringLiteral("scene:default"));
   settle();
   EXPECT_NE(session.document().path(), project);
