@@ -202,6 +202,54 @@ TEST_F(Commands, RelightAgreesWithTheReference) {
   EXPECT_LT(prtJson({"compare", "relit.exr", "truth.exr"})["relative_rmse"], 0.02);
 }
 
+TEST_F(Commands, LightsThatAreOffShineForNobody) {
+  const std::vector<std::string> off{"--set", "lights[1].kind=circle", "--set", "lights[1].radiance=9", "--set", "lights[1].on=false",
+                                     "--set", "lights[2].path=builtin:studio", "--set", "lights[2].on=false"};
+  bakeSmall("plain.prt");
+  bakeSmall("muted.prt", off);
+  bakeSmall("lit.prt", {"--set", "lights[1].kind=circle", "--set", "lights[1].radiance=9"});
+  const auto picture = [&](const std::string& project, std::vector<std::string> words) {
+    words.insert(words.begin() + 1, {project, "--size", "48x36", "-o", "out.exr"});
+    const ProgramResult result = prt(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return readImage(folder / "out.exr").data;
+  };
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"relight", "--background"}, {"relight", "--backend", "gl"},
+                                                {"reference", "--spp", "8"}}) {
+    EXPECT_EQ(picture("muted.prt", words), picture("plain.prt", words)) << words[0];
+    EXPECT_NE(picture("lit.prt", words), picture("plain.prt", words)) << words[0];
+  }
+}
+
+TEST_F(Commands, TheSunIsMovedBySettingsAndEveryRendererSeesIt) {
+  // A slope with nothing around it, the sun straight before it and aside.
+  const auto bake = [&](const std::string& output, const char* azimuth) {
+    bakeSmall(output, {"--set", "mesh=builtin:ground", "--set", "mesh.detail=1", "--set", "transform.rotate=0,0,40", "--set",
+                       "transfer.bounces=0", "--set", "transfer.bands=10", "--set", "lights[0].sunElevation=25", "--set", std::string("lights[0].sunAzimuth=") + azimuth});
+  };
+  bake("before.prt", "90");
+  bake("aside.prt", "0");
+  std::ofstream(folder / "cam.json") << R"({"eye": [0, 4, 0.1], "target": [0, 0, 0], "vfov_deg": 10})";
+  const auto mean = [&](const std::string& name, std::vector<std::string> words) {
+    words.insert(words.end(), {"--camera", "cam.json", "--size", "40x30", "-o", name});
+    const ProgramResult result = prt(words);
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Image image = readImage(folder / name);
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) sum += double(luminance(image.rgb(x, y)));
+    return sum / double(image.pixels());
+  };
+  for (const std::string project : {"before", "aside"}) {
+    const double cpu = mean(project + "_cpu.exr", {"relight", project + ".prt"});
+    const double gl = mean(project + "_gl.exr", {"relight", project + ".prt", "--backend", "gl"});
+    const double truth = mean(project + "_truth.exr", {"reference", project + ".prt", "--spp", "64"});
+    EXPECT_NEAR(gl / cpu, 1, 1e-3) << project;
+    EXPECT_NEAR(cpu / truth, 1, 0.03) << project << ": irradiance needs few bands";
+  }
+  EXPECT_GT(mean("b.exr", {"relight", "before.prt"}) / mean("a.exr", {"relight", "aside.prt"}), 1.5) << "it slopes towards -X";
+}
+
 TEST_F(Commands, RelightTurnsTheEnvironment) {
   bakeSmall("a.prt");
   const auto picture = [&](const std::string& name, std::vector<std::string> more) {
