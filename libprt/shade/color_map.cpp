@@ -11,7 +11,9 @@ namespace {
 constexpr int kColors = 256;
 constexpr double kLightest = 0.93, kDarkest = 0.29;  // OkLab lightness of the ends
 constexpr double kFirstHue = 318, kLastHue = 105;    // degrees: violet, yellow
-constexpr double kChroma = 0.17;
+// Colourful at the ends, less between, where blue and green hold less at these lightnesses: all of it can be
+// shown as it is, so that no colour is cut off.
+constexpr double kChromaOfEnds = 0.14, kChromaBetween = 0.08;
 
 /// Linear Rec.709 from OkLab in polar form.
 DVec3 fromOkLab(double lightness, double chroma, double hue) {
@@ -25,16 +27,12 @@ DVec3 fromOkLab(double lightness, double chroma, double hue) {
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
-bool displayable(const DVec3& c) {
-  return std::min({c.x, c.y, c.z}) >= 0 && std::max({c.x, c.y, c.z}) <= 1;
-}
-
 Rgb colorAt(double t) {
   const double lightness = kDarkest + (kLightest - kDarkest) * t,
                hue = kFirstHue + (kLastHue - kFirstHue) * t;
-  double chroma = kChroma;
-  while (chroma > 0 && !displayable(fromOkLab(lightness, chroma, hue))) chroma -= 1e-3;
-  const DVec3 linear = glm::clamp(fromOkLab(lightness, std::max(chroma, 0.0), hue), DVec3(0), DVec3(1));
+  const double end = std::cos(kPi * t) * std::cos(kPi * t);
+  const double chroma = kChromaBetween + (kChromaOfEnds - kChromaBetween) * end;
+  const DVec3 linear = fromOkLab(lightness, chroma, hue);
   return {encodeSrgb(float(linear.x)), encodeSrgb(float(linear.y)), encodeSrgb(float(linear.z))};
 }
 
