@@ -84,7 +84,9 @@ void ProjectFile::importFrom(ProjectFile& other) {
   for (const ProductRow& row : readProductRows(other.current())) {
     const ProductRow* there = findRow(here, row);
     const bool checkpoint = row.role == kCheckpoint;  // has no level: the other's is the newer one
-    if (there && !checkpoint && there->info.level >= row.info.level) continue;
+    if (there && (checkpoint ? productChecksum(there->info, row.role) == productChecksum(row.info, row.role)
+                             : there->info.level >= row.info.level))
+      continue;
     Transaction transaction(work());
     copyProduct(other.current(), row.id, work(), job);
     if (there) deleteProduct(work(), there->id);

@@ -79,7 +79,7 @@ TEST_F(LightDockTest, DraggingTheSkyTurnsItAsOneStep) {
 TEST_F(LightDockTest, ADoubleClickAddsACircleLightThereWhichLightsTheModel) {
   openUnder();
   const QImage before = picture();
-  const QPointF at(panorama->width() * 0.7, panorama->height() * 0.3);
+  const QPointF at = QPointF(panorama->width() * 0.7, panorama->height() * 0.3).toPoint();
   Pointer(panorama).doubleClick(at);
   ASSERT_EQ(session.lights().count(), 2);
   EXPECT_EQ(light(1).kind, LightKind::Circle);
@@ -262,7 +262,8 @@ TEST_F(LightDockTest, ADroppedHdrBecomesTheEnvironmentAndStaysAClickAway) {
   data.setUrls({QUrl::fromLocalFile(file)});
   QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(window.findChild<LightDock*>(), &drop);
-  ASSERT_TRUE(waitFor([&] { return session.environmentFile() == file && session.settled(); }));
+  ASSERT_TRUE(waitFor([&] { return session.environmentFile() == file && session.settled(); }))
+      << session.environmentFile().toStdString();
   session.useEnvironment(s("builtin:studio"));
   const auto& probes = session.probes().probes();
   const auto dropped =

@@ -70,7 +70,7 @@ TEST_F(MaterialDockTest, TheExponentSlidesLogarithmicallyLiveAndAsOneStep) {
   EXPECT_EQ(material().exponent, 1);
   EXPECT_TRUE(session.bakes().fresh()) << "an exponent bakes nothing";
   EXPECT_GT(difference(before, picture()), 0.005);
-  EXPECT_EQ(session.document().undoName(), s("Exponent"));
+  EXPECT_EQ(session.document().undoName(), s("Exponent of vase"));
   session.document().undo();
   EXPECT_EQ(material().exponent, 32);
   EXPECT_FALSE(session.document().canUndo());

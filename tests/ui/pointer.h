@@ -11,8 +11,8 @@ namespace prt::test {
 
 class Pointer {
  public:
-  /// All places are those of `widget`, which is shown.
-  explicit Pointer(QWidget* widget) : widget_(widget) {}
+  /// All places are those of `widget`, which is shown; what was just added to it is laid out first.
+  explicit Pointer(QWidget* widget) : widget_(widget) { QTest::qWait(20); }
 
   void press(const QPointF& at, Qt::KeyboardModifiers modifiers = {}) {
     buttons_ = Qt::LeftButton;

@@ -40,6 +40,7 @@ ProjectKeeper::~ProjectKeeper() {
   autosave_.flush();
   if (givenUp_) dismissPlace();
   autosave_.setPlace(nullptr);
+  if (titled_ && file_ && !file_->hasNewWork()) file_->discardWork();  // all of it is saved
 }
 
 int ProjectKeeper::backups() {
