@@ -17,6 +17,7 @@
 #include "ui/widgets/property_row.h"
 
 #include <QDockWidget>
+#include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QLineEdit>
 #include <QMimeData>
@@ -192,6 +193,7 @@ TEST_F(LightDockTest, ListPanoramaAndRowsShareTheSelection) {
   Pointer hand(list);
   hand.click(list->row(1).center());
   EXPECT_EQ(session.lights().selected(), 1);
+  pass(20);  // rows show once they are laid out
   auto* angle = window.findChild<PropertyRow*>(s("lights[1].angle"));
   ASSERT_TRUE(angle);
   EXPECT_TRUE(angle->isVisibleTo(window.findChild<LightDock*>()));
@@ -260,6 +262,8 @@ TEST_F(LightDockTest, ADroppedHdrBecomesTheEnvironmentAndStaysAClickAway) {
   writeImage(file.toStdString(), softboxStudio(64, 32).pixels());
   QMimeData data;
   data.setUrls({QUrl::fromLocalFile(file)});
+  QDragEnterEvent enter(QPoint(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QCoreApplication::sendEvent(window.findChild<LightDock*>(), &enter);
   QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QCoreApplication::sendEvent(window.findChild<LightDock*>(), &drop);
   ASSERT_TRUE(waitFor([&] { return session.environmentFile() == file && session.settled(); }))

@@ -11,6 +11,7 @@
 
 #include <QAbstractButton>
 #include <QDir>
+#include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QLabel>
 #include <QMenu>
@@ -166,6 +167,8 @@ TEST_F(Relink, DroppingAMeshOverEditsAsks) {
   const auto drop = [this] {
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(path("data/thing.obj"))});
+    QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window.viewport(), &enter);
     QDropEvent event(QPointF(10, 10), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
     QCoreApplication::sendEvent(&window.viewport(), &event);
   };

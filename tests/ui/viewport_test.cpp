@@ -351,7 +351,9 @@ TEST_F(ViewportTest, FFramesTheSelectedObjectAndAAll) {
 }
 
 TEST_F(ViewportTest, BackgroundsAreTheEnvironmentItsBlurOrPlainInBothDrawings) {
-  openAndSettle();
+  Recipe recipe = smallScene();
+  recipe.lights[0].path = "builtin:orientation";  // edges, which a blur changes
+  openAndSettle(recipe);
   QImage seen[2][3];
   for (const Drawing drawing : {Drawing::Cpu, Drawing::OpenGl}) {
     window.viewport().setDrawing(drawing);

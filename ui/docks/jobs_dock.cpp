@@ -159,6 +159,8 @@ JobsDock::JobsDock(JobRunner& runner, QWidget* parent)
 void JobsDock::refresh(quint64 id) {
   const auto found = shown_.find(id);
   if (found != shown_.end()) return found->second->refresh();
+  const JobInfo* job = runner_.find(id);
+  if (!job || (job->quiet && job->state != JobState::Failed)) return;
   auto* row = new JobRow(runner_, id);
   rows_->insertWidget(0, row);  // the newest on top
   shown_[id] = row;

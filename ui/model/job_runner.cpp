@@ -48,13 +48,26 @@ void JobRunner::stop() {
 }
 
 quint64 JobRunner::start(const QString& kind, const QString& title, Work work, Finish finish) {
+  JobInfo info;
+  info.kind = kind;
+  info.title = title;
+  return add(std::move(info), std::move(work), std::move(finish));
+}
+
+quint64 JobRunner::startQuietly(const QString& kind, const QString& title, Work work, Finish finish) {
+  JobInfo info;
+  info.kind = kind;
+  info.title = title;
+  info.quiet = true;
+  return add(std::move(info), std::move(work), std::move(finish));
+}
+
+quint64 JobRunner::add(JobInfo info, Work work, Finish finish) {
+  const QString kind = info.kind;
   cancelKind(kind);
   std::erase_if(failed_, [&](const auto& task) { return task->kind == kind; });
-  const quint64 id = nextId_++;
-  JobInfo& added = infos_.emplace_back();
-  added.id = id;
-  added.kind = kind;
-  added.title = title;
+  const quint64 id = info.id = nextId_++;
+  infos_.push_back(std::move(info));
 
   forgetOld();
   {

@@ -30,6 +30,7 @@ struct JobInfo {
   JobState state = JobState::Queued;
   Progress progress;  ///< its seconds without pauses
   QString error;      ///< of a failed job
+  bool quiet = false;  ///< of no interest to people unless it fails
 
   bool over() const { return state >= JobState::Done; }
 
@@ -54,6 +55,8 @@ class JobRunner : public QObject {
   /// Queues work. A job of the same kind that waits is dropped and one that runs is cancelled: the newest
   /// request is the one that counts.
   quint64 start(const QString& kind, const QString& title, Work work, Finish finish = {});
+  /// The same for what the interface does for itself (thumbnails): not listed for people unless it fails.
+  quint64 startQuietly(const QString& kind, const QString& title, Work work, Finish finish = {});
 
   /// What waits ends at once, what runs as soon as it notices.
   void cancel(quint64 id);
@@ -84,6 +87,7 @@ class JobRunner : public QObject {
 
   std::shared_ptr<Task> taskOf(quint64 id);
   void setState(quint64 id, JobState state);
+  quint64 add(JobInfo info, Work work, Finish finish);
   void workerLoop();
   std::shared_ptr<Task> takeTask();
   void run(const std::shared_ptr<Task>& task);

@@ -107,7 +107,7 @@ void ProbeLibrary::makePictures() {
     for (auto& [path, made] : results->made) self->made_[path] = made;
     if (!results->made.empty()) self->rebuild();
   };
-  runner_.start(QStringLiteral("thumbnails"), tr("Pictures of environments"), work, finish);
+  runner_.startQuietly(QStringLiteral("thumbnails"), tr("Pictures of environments"), work, finish);
 }
 
 }  // namespace prt::ui

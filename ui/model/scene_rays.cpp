@@ -22,7 +22,7 @@ void SceneRays::follow() {
     self->rays_ = *made;
     Q_EMIT self->changed();
   };
-  runner_.start(QStringLiteral("rays"), tr("Prepare handles"), work, finish);
+  runner_.startQuietly(QStringLiteral("rays"), tr("Prepare handles"), work, finish);
 }
 
 bool SceneRays::blocked(const Vec3& from, const Vec3& to) const {

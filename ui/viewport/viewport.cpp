@@ -58,7 +58,12 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
 void Viewport::setDrawing(Drawing drawing) {
   if (drawing == drawing_) return;
   drawing_ = drawing;
+  const bool active = isActiveWindow();
   chooseCanvas();
+  if (active) {  // Qt makes the window anew for its first OpenGL widget, and it loses the keyboard
+    activateWindow();
+    setFocus();
+  }
   Q_EMIT drawingChanged();
 }
 

@@ -26,6 +26,7 @@ MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), tex
   row->addWidget(fix_, 0, Qt::AlignTop);
   row->addWidget(close, 0, Qt::AlignTop);
   fix_->setObjectName(QStringLiteral("messageFix"));
+  fix_->setToolTip(tr("Does what the message proposes."));
   connect(fix_, &QPushButton::clicked, this, [this] {
     hide();
     if (run_) run_();
