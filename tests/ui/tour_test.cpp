@@ -89,20 +89,22 @@ class TourTest : public test::StudioTest {
     ASSERT_TRUE(waitFor([this] { return session.settled() && session.bakes().fresh(); }));
     pass(100);
   }
-  /// Types a name into the file dialog that the next call opens.
+  /// Gives a name to the file dialog that the next call opens. A list of completions may swallow a click, so
+  /// it goes on until the dialog is gone.
   static void answerFileDialog(const QString& file) {
     auto* poll = new QTimer(qApp);
-    QObject::connect(poll, &QTimer::timeout, qApp, [poll, file] {
+    QObject::connect(poll, &QTimer::timeout, qApp, [poll, file, seen = false]() mutable {
       auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+      if (!dialog && seen) return poll->deleteLater();
       if (!dialog || !dialog->isVisible()) return;
-      poll->deleteLater();
-      auto* name = dialog->findChild<QLineEdit*>();
-      name->selectAll();
-      QTest::keyClicks(name, file);
+      seen = true;
+      if (QWidget* popup = QApplication::activePopupWidget()) popup->close();
+      auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"));
+      if (name->text() != file) name->setText(file);
       QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Save),
                         Qt::LeftButton);
     });
-    poll->start(20);
+    poll->start(50);
   }
   std::size_t lights() { return session.document().recipe().lights.size(); }
 };
