@@ -140,7 +140,8 @@ void LightEditor::edit(int light, const QString& name, Change&& change) {
   if (!has(light)) return;
   Recipe next = document_.recipe();
   change(next.lights[std::size_t(light)]);
-  document_.edit(name.arg(nameOf(next.lights[std::size_t(light)])), next);
+  const bool named = name.contains(QStringLiteral("%1"));
+  document_.edit(named ? name.arg(nameOf(next.lights[std::size_t(light)])) : name, next);
 }
 
 void LightEditor::aim(int light, const Vec3& direction) {
