@@ -66,13 +66,20 @@ QWidget* column() {
   return holder;
 }
 
+/// What fits the narrow dock; empty: the parameter's own title.
+QString shortTitle(const QString& parameter) {
+  if (parameter == u"sunAzimuth") return QObject::tr("Sun around");
+  if (parameter == u"sunElevation") return QObject::tr("Sun height");
+  return {};
+}
+
 /// Puts the rows of a light into a column, in place of what is there.
 void fill(QWidget* holder, Document& document, int light) {
   qDeleteAll(holder->findChildren<PropertyRow*>(Qt::FindDirectChildrenOnly));
   if (light < 0) return;
   for (const QString& name : rowsOf(document.recipe().lights[std::size_t(light)]))
     holder->layout()->addWidget(
-        new PropertyRow(document, QStringLiteral("lights[%1].%2").arg(light).arg(name)));
+        new PropertyRow(document, QStringLiteral("lights[%1].%2").arg(light).arg(name), shortTitle(name)));
 }
 
 /// Changes when other rows are needed.

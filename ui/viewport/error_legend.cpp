@@ -11,7 +11,7 @@ namespace prt::ui {
 
 namespace {
 
-constexpr int kMargin = 12, kPadding = 10, kBarWidth = 220, kBarHeight = 10;
+constexpr int kMargin = 12, kPadding = 10, kBarWidth = 336, kBarHeight = 10;
 
 QColor toQColor(const Rgb& c) {
   return QColor::fromRgbF(c.x, c.y, c.z);
@@ -25,8 +25,8 @@ void paintScale(QPainter& painter, const QRect& bar, double end) {
   painter.setPen(pictureTheme().muted);
   const QFontMetrics metrics = painter.fontMetrics();
   for (const double t : {0.0, 0.5, 1.0}) {
-    const QString text =
-        t == 0 ? QStringLiteral("0") : percentText(t * end) + (t == 1 ? QObject::tr(" and more") : QString());
+    const QString text = t == 0 ? QStringLiteral("0")
+                                : (t == 1 ? QStringLiteral("\u2265 ") : QString()) + percentText(t * end);
     const int x = bar.left() + int(t * (bar.width() - 1)), wide = metrics.horizontalAdvance(text);
     painter.drawLine(x, bar.bottom() + 1, x, bar.bottom() + 4);
     const int left = t == 0 ? x : (t == 1 ? x - wide : x - wide / 2);
