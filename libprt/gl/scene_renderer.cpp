@@ -340,16 +340,7 @@ void SceneRenderer::drawRadiance(const Picture& picture, PixelFormat format, int
     radianceFormat_ = format;
   }
   radiance_.bind();
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LEQUAL);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(0, 0, 0, 0);
-  glClearDepth(1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  beginSurfaces();
   if (indexCount_ > 0) drawMesh(picture);
   if (picture.background == Background::Environment && environment_) drawBackground(picture);
 }

@@ -135,16 +135,7 @@ Image SurfaceOverlay::render(const OverlayPicture& picture) {
 void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
   fit(surface_, picture, PixelFormat::Rgba8, true, samples);
   surface_.bind();
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_CULL_FACE);
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LEQUAL);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glClearColor(0, 0, 0, 0);
-  glClearDepth(1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  beginSurfaces();
   surfaceProgram_.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
   surfaceProgram_.set("eye", picture.camera.eye);
   surfaceProgram_.set("axis", picture.camera.axes().normal);

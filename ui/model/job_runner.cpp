@@ -47,17 +47,19 @@ void JobRunner::stop() {
   threads_.clear();
 }
 
-quint64 JobRunner::start(const QString& kind, const QString& title, Work work, Finish finish) {
+static JobInfo queued(const QString& kind, const QString& title) {
   JobInfo info;
   info.kind = kind;
   info.title = title;
-  return add(std::move(info), std::move(work), std::move(finish));
+  return info;
+}
+
+quint64 JobRunner::start(const QString& kind, const QString& title, Work work, Finish finish) {
+  return add(queued(kind, title), std::move(work), std::move(finish));
 }
 
 quint64 JobRunner::startQuietly(const QString& kind, const QString& title, Work work, Finish finish) {
-  JobInfo info;
-  info.kind = kind;
-  info.title = title;
+  JobInfo info = queued(kind, title);
   info.quiet = true;
   return add(std::move(info), std::move(work), std::move(finish));
 }
