@@ -61,7 +61,8 @@ QByteArray thumbnailOf(Viewport& viewport) {
   if (picture.isNull()) return {};
   QByteArray png;
   QBuffer buffer(&png);
-  picture.scaled(kThumbWidth, kThumbHeight, Qt::KeepAspectRatio, Qt::SmoothTransformation).save(&buffer, "PNG");
+  picture.scaled(kThumbWidth, kThumbHeight, Qt::KeepAspectRatio, Qt::SmoothTransformation)
+      .save(&buffer, "PNG");
   return png;
 }
 
@@ -234,7 +235,8 @@ void MainWindow::makeViewMenu() {
   handles->setChecked(lightHandles_->enabled());
   handles->setObjectName(QStringLiteral("lightHandles"));
   menu->addSeparator();
-  menu->addAction(tr("Next &error overlay"), QKeySequence(Qt::Key_E), this, [this] { session_.errors().cycle(); });
+  menu->addAction(tr("Next &error overlay"), QKeySequence(Qt::Key_E), this,
+                  [this] { session_.errors().cycle(); });
   menu->addSeparator();
   for (QDockWidget* dock : docks_) menu->addAction(dock->toggleViewAction());
   menu->addSeparator();
@@ -399,7 +401,8 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
   placeMessage();
 }
 
-// Asks when something would be lost; false also while it is saved first, after which the window closes itself.
+// Asks when something would be lost; false also while it is saved first, after which the window closes
+// itself.
 bool MainWindow::mayClose() {
   if (leaving_) return true;
   const auto inside = std::make_shared<bool>(true);

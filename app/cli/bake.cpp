@@ -1,13 +1,13 @@
 // prt bake: makes the products of a recipe and saves them in a project.
 
+#include "libprt/project/bake.h"
 #include "app/cli/progress_bar.h"
 #include "app/cli/recipe_page.h"
 #include "app/cli/session.h"
-#include "libprt/project/bake.h"
 #include "libprt/project/scenes.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -26,20 +26,25 @@ std::string parameterHelp() {
   for (const Parameter& p : parameters()) {
     text += fmt::format("  {:<36} {} [{}]\n", p.path, p.doc, p.defaultText);
   }
-  return text + "\nExample:\n  prt bake bunny.obj -o bunny.prt --set transfer.bounces=3 --set material.albedo=0.8,0.4,0.2";
+  return text +
+         "\nExample:\n  prt bake bunny.obj -o bunny.prt --set transfer.bounces=3 --set "
+         "material.albedo=0.8,0.4,0.2";
 }
 
 void tell(const Session& session, const BakeSummary& s) {
   for (const BakeSummary::Object& object : s.objects)
-    session.say(fmt::format("{}: {} vertices, {} triangles; {}", object.name, object.vertices, object.triangles, object.repair));
+    session.say(fmt::format("{}: {} vertices, {} triangles; {}", object.name, object.vertices,
+                            object.triangles, object.repair));
   if (s.transfer) {
     const BakeSummary::TransferFacts& t = *s.transfer;
-    session.say(fmt::format("transfer: {}, {} bands, {} samples, {} rays each, {} bounces; {}, storage error {:.3f} %", t.form, t.bands,
-                            t.samples, t.rays, t.bounces, byteCount(double(t.bytes)), 100 * t.storageError));
+    session.say(fmt::format(
+        "transfer: {}, {} bands, {} samples, {} rays each, {} bounces; {}, storage error {:.3f} %", t.form,
+        t.bands, t.samples, t.rays, t.bounces, byteCount(double(t.bytes)), 100 * t.storageError));
   }
   if (s.floor)
-    session.say(fmt::format("errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %", 100 * s.floor->interpolation,
-                            100 * s.floor->interpolationError, 100 * s.floor->sampling));
+    session.say(fmt::format(
+        "errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %",
+        100 * s.floor->interpolation, 100 * s.floor->interpolationError, 100 * s.floor->sampling));
   for (const BakeSummary::StageTime& stage : s.stages)
     if (stage.made) session.say(fmt::format("  {:<10} {:8.2f} s", stage.name, stage.seconds));
   session.say(fmt::format("saved {} ({})", s.file.string(), byteCount(double(s.bytes))));
@@ -63,8 +68,12 @@ void bake(Session& session, const Options& options) {
 
 void addBake(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("bake", "Bake a mesh, a recipe or a project; goes on where an earlier bake stopped");
-  command->add_option("INPUT", options->input, "Mesh file, recipe (.json), project (.prt), scene:NAME or builtin:MESH")->required();
+  CLI::App* command =
+      app.add_subcommand("bake", "Bake a mesh, a recipe or a project; goes on where an earlier bake stopped");
+  command
+      ->add_option("INPUT", options->input,
+                   "Mesh file, recipe (.json), project (.prt), scene:NAME or builtin:MESH")
+      ->required();
   command->add_option("-o,--output", options->output, "Project to write (.prt); default: INPUT if it is one");
   command->add_option("--set", options->assignments, "PATH=VALUE of a setting below; may be repeated")
       ->take_all()

@@ -1,8 +1,8 @@
 // prt bench: one measurement against its limit or its rival, in one run.
 
+#include "libprt/study/bench.h"
 #include "app/cli/session.h"
 #include "libprt/project/recipe.h"
-#include "libprt/study/bench.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,8 @@ void requireKnown(const std::string& name) {
     list += (list.empty() ? "" : ", ") + known;
   }
   const std::string nearest = nearestName(name, names);
-  throw UsageError("there is no bench '" + name + "'", "NAME", (nearest.empty() ? "" : "did you mean " + nearest + "? ") + ("choose from " + list));
+  throw UsageError("there is no bench '" + name + "'", "NAME",
+                   (nearest.empty() ? "" : "did you mean " + nearest + "? ") + ("choose from " + list));
 }
 
 void bench(Session& session, const Options& options) {
@@ -37,7 +38,8 @@ void bench(Session& session, const Options& options) {
   const BenchResult result = runBench(options.name, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
   session.say(fmt::format("  ours     {:.4g} {}", result.ours.value, result.ours.unit));
-  session.say(fmt::format("  against  {:.4g} {} ({})", result.against.value, result.against.unit, result.againstWhat));
+  session.say(fmt::format("  against  {:.4g} {} ({})", result.against.value, result.against.unit,
+                          result.againstWhat));
   for (const auto& [name, value] : result.details) session.say(fmt::format("  {:<32} {:.5g}", name, value));
   session.result(toJson(result));
 }
@@ -54,7 +56,9 @@ void addBench(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bench", "Measure one thing against its limit or its rival");
   command->add_option("NAME", options->name, "Which bench, of those below")->required();
-  command->add_option("--repetitions", options->repetitions, "How often both sides are timed; 0 = as often as is needed")
+  command
+      ->add_option("--repetitions", options->repetitions,
+                   "How often both sides are timed; 0 = as often as is needed")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   command->footer(listOfBenches);

@@ -16,11 +16,16 @@ struct Options {
 };
 
 /// The reference's noise taken out, where a second, independent one is there.
-nlohmann::json noiseFree(Session& session, const Options& options, const Image& image, const Image& reference, const PixelMask& mask) {
+nlohmann::json noiseFree(Session& session, const Options& options, const Image& image, const Image& reference,
+                         const PixelMask& mask) {
   const Image second = readImage(options.second);
   const NoiseFreeError e = noiseFreeError(image, reference, second, bothMasks(mask, coveredPixels(second)));
-  session.say(fmt::format("free of noise    {:.4f} % ({:.4f} to {:.4f} %)", 100 * e.relative(), 100 * e.relativeLow(), 100 * e.relativeHigh()));
-  return {{"relative", e.relative()}, {"low", e.relativeLow()}, {"high", e.relativeHigh()}, {"mean_square", e.meanSquare},
+  session.say(fmt::format("free of noise    {:.4f} % ({:.4f} to {:.4f} %)", 100 * e.relative(),
+                          100 * e.relativeLow(), 100 * e.relativeHigh()));
+  return {{"relative", e.relative()},
+          {"low", e.relativeLow()},
+          {"high", e.relativeHigh()},
+          {"mean_square", e.meanSquare},
           {"standard_error", e.standardError}};
 }
 
@@ -47,12 +52,17 @@ void compare(Session& session, const Options& options) {
   session.say(fmt::format("maximum          {:.6g}", e.maximum));
   session.say(fmt::format("95th percentile  {:.4f} %", 100 * e.percentile95));
   session.say(fmt::format("FLIP             {:.5f}", flip.mean));
-  nlohmann::json result{{"pixels", e.pixels}, {"rmse", e.rmse}, {"relative_rmse", e.relativeRmse}, {"max", e.maximum},
-                        {"percentile95", e.percentile95}, {"flip", flip.mean}};
+  nlohmann::json result{{"pixels", e.pixels},
+                        {"rmse", e.rmse},
+                        {"relative_rmse", e.relativeRmse},
+                        {"max", e.maximum},
+                        {"percentile95", e.percentile95},
+                        {"flip", flip.mean}};
   if (!options.second.empty()) result["noise_free"] = noiseFree(session, options, image, reference, mask);
   if (!options.heatmap.empty()) {
     const bool absolute = options.metric == "difference";
-    const Image map = absolute ? heatMap(differences(image, reference), float(e.maximum), mask) : heatMap(flip.map, 1, mask);
+    const Image map = absolute ? heatMap(differences(image, reference), float(e.maximum), mask)
+                               : heatMap(flip.map, 1, mask);
     ImageWriteOptions write;
     write.alreadySrgb = true;
     writeImage(options.heatmap, map, write);
@@ -68,13 +78,15 @@ void addCompare(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
   command->add_option("IMAGE", options->image, "Picture to judge: .exr, .hdr or .png")->required();
   command->add_option("REFERENCE", options->reference, "What it should look like")->required();
-  command->add_option("--second-reference", options->second, "Independent reference (another --seed): cancels the references' noise");
+  command->add_option("--second-reference", options->second,
+                      "Independent reference (another --seed): cancels the references' noise");
   command->add_option("--heatmap", options->heatmap, "Picture of the error to write, .png");
   command->add_option("--heatmap-of", options->metric, "flip, or difference: |a - b| from 0 to its maximum")
       ->check(CLI::IsMember({"flip", "difference"}))
       ->capture_default_str();
-  command->footer("Pixels count where both pictures are covered (alpha).\n"
-                  "Example:\n  prt compare bunny.exr truth.exr --heatmap error.png");
+  command->footer(
+      "Pixels count where both pictures are covered (alpha).\n"
+      "Example:\n  prt compare bunny.exr truth.exr --heatmap error.png");
   command->callback([options, &action] { action = [options](Session& s) { compare(s, *options); }; });
 }
 

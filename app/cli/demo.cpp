@@ -30,12 +30,16 @@ struct Options {
 };
 
 const std::map<std::string, std::string> kCaptions{
-    {"vase", "A glazed vase under a clear sky with sun: visibility and colour-bleeding matrices, a Phong lobe towards the viewer."},
+    {"vase",
+     "A glazed vase under a clear sky with sun: visibility and colour-bleeding matrices, a Phong lobe "
+     "towards the viewer."},
     {"bird", "A clay bird on moss under an overcast sky: diffuse vectors with three bounces."},
     {"rock", "A rock between three softboxes: its hollows light themselves."},
 };
 
-double secondsSince(Clock::time_point begun) { return std::chrono::duration<double>(Clock::now() - begun).count(); }
+double secondsSince(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
+}
 
 /// Pictures of the light turning once around; returns the mean time of one.
 double makeFrames(Session& session, const Options& options, DemoScene& scene, const fs::path& project) {
@@ -56,13 +60,15 @@ double makeFrames(Session& session, const Options& options, DemoScene& scene, co
     const auto begun = Clock::now();
     const Image image = relight(baked, recipe, rig, camera, picture, session.job());
     seconds += secondsSince(begun);
-    scene.frames.push_back(fs::path(options.folder) / fmt::format("{}_{:03}.png", scene.name, 360 * i / options.frames));
+    scene.frames.push_back(fs::path(options.folder) /
+                           fmt::format("{}_{:03}.png", scene.name, 360 * i / options.frames));
     writePicture(scene.frames.back().string(), image, 0);
   }
   return seconds / options.frames;
 }
 
-DemoScene makeScene(Session& session, const Options& options, const std::string& name, nlohmann::json& report) {
+DemoScene makeScene(Session& session, const Options& options, const std::string& name,
+                    nlohmann::json& report) {
   const fs::path project = fs::path(options.folder) / (name + ".prt");
   RecipeSource source{builtinScene(name), ".", {}};
   for (const std::string& assignment : options.assignments) setByAssignment(source.recipe, assignment);
@@ -80,7 +86,8 @@ DemoScene makeScene(Session& session, const Options& options, const std::string&
                  {"bake", fmt::format("{:.1f} s", baked)},
                  {"project", byteCount(double(summary.bytes))},
                  {"picture", fmt::format("{:.0f} ms", 1000 * perFrame)}};
-  session.say(fmt::format("{}: {} vertices, baked in {:.1f} s, {:.0f} ms per picture", name, vertices, baked, 1000 * perFrame));
+  session.say(fmt::format("{}: {} vertices, baked in {:.1f} s, {:.0f} ms per picture", name, vertices, baked,
+                          1000 * perFrame));
   nlohmann::json entry = toJson(summary);
   entry["bake_seconds"] = baked;
   entry["picture_seconds"] = perFrame;
@@ -109,16 +116,20 @@ void demo(Session& session, const Options& options) {
 
 void addDemo(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("demo", "Bake and relight the built-in scenes; writes pictures and a page");
+  CLI::App* command =
+      app.add_subcommand("demo", "Bake and relight the built-in scenes; writes pictures and a page");
   options->scenes = {"vase", "bird", "rock"};
   command->add_option("-o,--output", options->folder, "Folder to write to")->required();
   command->add_option("--scene", options->scenes, "Built-in scene; may be repeated")
       ->check(CLI::IsMember(builtinSceneNames()))
       ->allow_extra_args(false)
       ->capture_default_str();
-  command->add_option("--set", options->assignments, "PATH=VALUE of a setting in all scenes; may be repeated")->allow_extra_args(false);
+  command->add_option("--set", options->assignments, "PATH=VALUE of a setting in all scenes; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--size", options->size, "Width x height of the pictures")->capture_default_str();
-  command->add_option("--frames", options->frames, "Pictures per turn of the light")->check(CLI::Range(1, 360))->capture_default_str();
+  command->add_option("--frames", options->frames, "Pictures per turn of the light")
+      ->check(CLI::Range(1, 360))
+      ->capture_default_str();
   command->footer("Example:\n  prt demo -o demo && xdg-open demo/index.html");
   command->callback([options, &action] { action = [options](Session& s) { demo(s, *options); }; });
 }

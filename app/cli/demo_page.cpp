@@ -73,11 +73,14 @@ std::string readText(const std::filesystem::path& file) {
 
 std::string sectionOf(const DemoScene& scene) {
   std::string frames, facts;
-  for (const auto& frame : scene.frames) frames += (frames.empty() ? "\"" : ",\"") + base64(readText(frame)) + "\"";
+  for (const auto& frame : scene.frames)
+    frames += (frames.empty() ? "\"" : ",\"") + base64(readText(frame)) + "\"";
   for (const auto& [name, value] : scene.facts) facts += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   return fmt::format(
-      "<section>\n<div><img alt=\"{0}, relit\">\n<label>light <input type=\"range\" min=\"0\" value=\"0\"><output></output></label></div>\n"
-      "<div><h2>{0}</h2><p>{1}</p>\n<dl>\n{2}</dl></div>\n<script type=\"application/json\">[{3}]</script>\n</section>\n",
+      "<section>\n<div><img alt=\"{0}, relit\">\n<label>light <input type=\"range\" min=\"0\" "
+      "value=\"0\"><output></output></label></div>\n"
+      "<div><h2>{0}</h2><p>{1}</p>\n<dl>\n{2}</dl></div>\n<script "
+      "type=\"application/json\">[{3}]</script>\n</section>\n",
       scene.name, scene.caption, facts, frames);
 }
 
@@ -87,9 +90,12 @@ std::string base64(const std::string& bytes) {
   static const char* const digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t((unsigned char)bytes[i + k]) : 0u; };
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? std::uint32_t((unsigned char)bytes[i + k]) : 0u;
+    };
     const std::uint32_t bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (int k = 0; k < 4; ++k) out += i + std::size_t(k) <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+    for (int k = 0; k < 4; ++k)
+      out += i + std::size_t(k) <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
   }
   return out;
 }

@@ -1,9 +1,9 @@
 // prt export: a baked project as plain files.
 
+#include "libprt/project/export.h"
 #include "app/cli/session.h"
 #include "libprt/core/log.h"
 #include "libprt/project/errors.h"
-#include "libprt/project/export.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/project_file.h"
 
@@ -24,17 +24,21 @@ struct Options {
 std::shared_ptr<const ErrorMap> estimate(Session& session, const ExportInput& input) {
   const BakedScene& baked = input.baked;
   const std::shared_ptr<const Transfer> transfer(baked.transfer, &baked.transfer->transfer);
-  const ErrorProbe probe = probeErrors(*baked.geometry->scene, *baked.samples->samples, transfer, input.recipe, session.job());
-  auto map = std::make_shared<ErrorMap>(probe.under(judgedLight(input.lights, transfer->bands, input.recipe.method)));
-  session.say(fmt::format("estimated error {:.2f} %: Monte Carlo {:.2f}, interpolation {:.2f}, truncation {:.2f}", 100 * map->totalRms(),
-                          100 * map->rms.x, 100 * map->rms.y, 100 * map->rms.z));
+  const ErrorProbe probe =
+      probeErrors(*baked.geometry->scene, *baked.samples->samples, transfer, input.recipe, session.job());
+  auto map = std::make_shared<ErrorMap>(
+      probe.under(judgedLight(input.lights, transfer->bands, input.recipe.method)));
+  session.say(
+      fmt::format("estimated error {:.2f} %: Monte Carlo {:.2f}, interpolation {:.2f}, truncation {:.2f}",
+                  100 * map->totalRms(), 100 * map->rms.x, 100 * map->rms.y, 100 * map->rms.z));
   return map;
 }
 
 void exportProject(Session& session, const Options& options) {
   if (options.npy.empty() && options.exr.empty() && options.gltf.empty())
     throw UsageError("nothing to write is named", "", "add --npy DIR, --exr DIR or --gltf DIR");
-  if (options.errors && options.npy.empty()) throw UsageError("--error-estimate is written with the arrays", "", "add --npy DIR");
+  if (options.errors && options.npy.empty())
+    throw UsageError("--error-estimate is written with the arrays", "", "add --npy DIR");
   const auto project = ProjectFile::open(options.project);
   const fs::path file = options.project, folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   Pipeline pipeline(project.get(), {folder});
@@ -43,7 +47,8 @@ void exportProject(Session& session, const Options& options) {
   const BakedScene baked = bakedScene(pipeline, recipe, options.project);
   const auto frames = pipeline.run(recipe, {"frames"}, session.job()).get<FramesProduct>("frames");
   ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
-  if (!input.baked.final()) logWarning(fmt::format("transfer is a preview, {} of {}", input.baked.level, input.baked.levels));
+  if (!input.baked.final())
+    logWarning(fmt::format("transfer is a preview, {} of {}", input.baked.level, input.baked.levels));
   nlohmann::json written;
   if (options.errors) input.errors = estimate(session, input);
   const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
@@ -52,7 +57,8 @@ void exportProject(Session& session, const Options& options) {
   };
   if (!options.npy.empty()) note("npy", options.npy, exportNpy(input, options.npy, session.job()));
   if (!options.exr.empty()) note("exr", options.exr, exportExr(input, options.exr, session.job()));
-  if (!options.gltf.empty()) note("gltf", options.gltf, exportGltf(input, options.gltf, options.exposure, session.job()));
+  if (!options.gltf.empty())
+    note("gltf", options.gltf, exportGltf(input, options.gltf, options.exposure, session.job()));
   session.result(written);
 }
 
@@ -60,14 +66,23 @@ void exportProject(Session& session, const Options& options) {
 
 void addExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("export", "Write plain files with a manifest.json: numpy arrays, EXR, glTF");
+  CLI::App* command =
+      app.add_subcommand("export", "Write plain files with a manifest.json: numpy arrays, EXR, glTF");
   command->add_option("PROJECT", options->project, "Baked project (.prt)")->required();
   command->add_option("--npy", options->npy, "Folder for .npy arrays: geometry, transfer, light");
-  command->add_flag("--error-estimate", options->errors, "Estimate where the bake is wrong and add it to --npy; takes about as long as the bake");
-  command->add_option("--exr", options->exr, "Folder for .exr pictures: the light, and a picture of each camera");
-  command->add_option("--gltf", options->gltf, "Folder for a .glb with the current light baked into vertex colours");
-  command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")->check(finite())->check(CLI::Range(-30.0, 30.0))->capture_default_str();
-  command->footer("Example:\n  prt export bunny.prt --npy arrays && python3 -c \"import numpy; print(numpy.load('arrays/transfer_diffuse.npy').shape)\"");
+  command->add_flag("--error-estimate", options->errors,
+                    "Estimate where the bake is wrong and add it to --npy; takes about as long as the bake");
+  command->add_option("--exr", options->exr,
+                      "Folder for .exr pictures: the light, and a picture of each camera");
+  command->add_option("--gltf", options->gltf,
+                      "Folder for a .glb with the current light baked into vertex colours");
+  command->add_option("--exposure", options->exposure, "Stops, for the vertex colours")
+      ->check(finite())
+      ->check(CLI::Range(-30.0, 30.0))
+      ->capture_default_str();
+  command->footer(
+      "Example:\n  prt export bunny.prt --npy arrays && python3 -c \"import numpy; "
+      "print(numpy.load('arrays/transfer_diffuse.npy').shape)\"");
   command->callback([options, &action] { action = [options](Session& s) { exportProject(s, *options); }; });
 }
 

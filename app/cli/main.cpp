@@ -15,8 +15,9 @@ namespace {
 constexpr int kDone = 0, kFailed = 1, kUsage = 2, kCancelled = 130;
 
 /// In the order of their use; --help lists them so.
-constexpr void (*kCommands[])(CLI::App&, Action&) = {addBake, addRelight, addReference, addCompare, addInfo,
-                                                     addVerify, addExport, addLight, addDemo, addBench};
+constexpr void (*kCommands[])(CLI::App&, Action&) = {addBake, addRelight, addReference, addCompare,
+                                                     addInfo, addVerify,  addExport,    addLight,
+                                                     addDemo, addBench};
 
 void addGlobalOptions(CLI::App& app, Session& session) {
   app.add_flag("--json", session.json, "Print the result as JSON on stdout")->group("Global options");
@@ -70,8 +71,10 @@ std::string unknownCommand(const CLI::App& app, int argc, char** argv) {
   if (!app.get_subcommands().empty()) return {};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--threads" || word == "--seed" || word == "--log-level") ++i;
-    else if (!word.starts_with("-")) return word;
+    if (word == "--threads" || word == "--seed" || word == "--log-level")
+      ++i;
+    else if (!word.starts_with("-"))
+      return word;
   }
   return {};
 }
@@ -106,7 +109,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "prt " PRT_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
-  app.footer("Example:\n  prt bake bunny.obj -o bunny.prt && prt relight bunny.prt --env sky.hdr -o bunny.png");
+  app.footer(
+      "Example:\n  prt bake bunny.obj -o bunny.prt && prt relight bunny.prt --env sky.hdr -o bunny.png");
   addGlobalOptions(app, session);
   for (const auto& add : kCommands) add(app, action);
   try {
@@ -122,4 +126,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace prt::cli
 
-int main(int argc, char** argv) { return prt::cli::run(argc, argv); }
+int main(int argc, char** argv) {
+  return prt::cli::run(argc, argv);
+}

@@ -1,12 +1,12 @@
 // prt reference: the ground truth of a project's picture, path traced.
 
+#include "libprt/shade/reference.h"
 #include "app/cli/session.h"
 #include "app/cli/view_options.h"
 #include "libprt/core/image_io.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
-#include "libprt/shade/reference.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +23,9 @@ struct Options {
   std::string noise;
 };
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 void reference(Session& session, const Options& options) {
   checkPictureOutput(options.view.output);
@@ -43,11 +45,16 @@ void reference(Session& session, const Options& options) {
   ReferenceImage image(tracer, view.camera, view.width, view.height, path);
   image.add(options.samples, session.job());
   writePicture(options.view.output, image.radiance(options.view.background), options.view.exposure);
-  if (!options.noise.empty()) writePicture(options.noise, image.standardError(options.view.background), options.view.exposure);
-  session.say(fmt::format("wrote {} ({} x {}, {} paths per pixel, {} bounces)", options.view.output, view.width, view.height,
-                          image.samples(), path.bounces));
-  session.result({{"output", options.view.output}, {"width", view.width}, {"height", view.height}, {"spp", image.samples()},
-                  {"bounces", path.bounces}, {"seed", path.seed}});
+  if (!options.noise.empty())
+    writePicture(options.noise, image.standardError(options.view.background), options.view.exposure);
+  session.say(fmt::format("wrote {} ({} x {}, {} paths per pixel, {} bounces)", options.view.output,
+                          view.width, view.height, image.samples(), path.bounces));
+  session.result({{"output", options.view.output},
+                  {"width", view.width},
+                  {"height", view.height},
+                  {"spp", image.samples()},
+                  {"bounces", path.bounces},
+                  {"seed", path.seed}});
 }
 
 }  // namespace
@@ -56,12 +63,17 @@ void addReference(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("reference", "Path-traced ground truth for the same picture");
   options->view.addTo(*command);
-  command->add_option("--spp", options->samples, "Paths per pixel")->check(CLI::Range(1, 1 << 20))->capture_default_str();
-  command->add_option("--bounces", options->bounces, "Interreflections; default: the project's")->check(CLI::Range(0, 1000));
-  command->add_flag("--diffuse-bounces", options->diffuseBounces, "Surfaces seen by way of another reflect diffusely, as baked transfer has it");
+  command->add_option("--spp", options->samples, "Paths per pixel")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command->add_option("--bounces", options->bounces, "Interreflections; default: the project's")
+      ->check(CLI::Range(0, 1000));
+  command->add_flag("--diffuse-bounces", options->diffuseBounces,
+                    "Surfaces seen by way of another reflect diffusely, as baked transfer has it");
   command->add_option("--noise", options->noise, "Also write the standard error of each pixel, .exr");
-  command->footer("Two references with different --seed cancel each other's noise: see prt compare --second-reference.\n"
-                  "Example:\n  prt reference bunny.prt --env sky.hdr --spp 1024 --bounces 3 --seed 2 -o truth.exr");
+  command->footer(
+      "Two references with different --seed cancel each other's noise: see prt compare --second-reference.\n"
+      "Example:\n  prt reference bunny.prt --env sky.hdr --spp 1024 --bounces 3 --seed 2 -o truth.exr");
   command->callback([options, &action] { action = [options](Session& s) { reference(s, *options); }; });
 }
 

@@ -1,11 +1,11 @@
 // prt relight: a picture of a baked project under any light.
 
+#include "libprt/project/relight.h"
 #include "app/cli/picture_gl.h"
 #include "app/cli/session.h"
 #include "app/cli/view_options.h"
 #include "libprt/core/log.h"
 #include "libprt/project/project_file.h"
-#include "libprt/project/relight.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,9 @@ struct Options {
   std::string method, window, backend = "cpu";
 };
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
 
 void relightProject(Session& session, const Options& options) {
   checkPictureOutput(options.view.output);
@@ -32,18 +34,27 @@ void relightProject(Session& session, const Options& options) {
   const fs::path folder = folderOf(options.view.project);
   Pipeline pipeline(project.get(), {folder});
   const BakedScene baked = bakedScene(pipeline, recipe, options.view.project);
-  if (!baked.final()) logWarning(fmt::format("transfer is a preview, {} of {}; prt bake {} finishes it", baked.level, baked.levels, options.view.project));
+  if (!baked.final())
+    logWarning(fmt::format("transfer is a preview, {} of {}; prt bake {} finishes it", baked.level,
+                           baked.levels, options.view.project));
   const View view = viewOf(options.view, recipe, folder, baked.geometry->scene->mesh.bounds());
   PictureOptions picture{view.width, view.height};
   picture.background = options.view.background;
   const auto begun = std::chrono::steady_clock::now();
-  const Image image = options.backend == "gl" ? relightGl(baked, recipe, view.lights, view.camera, picture)
-                                              : relight(baked, recipe, view.lights, view.camera, picture, session.job());
+  const Image image = options.backend == "gl"
+                          ? relightGl(baked, recipe, view.lights, view.camera, picture)
+                          : relight(baked, recipe, view.lights, view.camera, picture, session.job());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   writePicture(options.view.output, image, options.view.exposure);
-  session.say(fmt::format("wrote {} ({} x {}, {:.0f} ms)", options.view.output, view.width, view.height, 1000 * seconds));
-  session.result({{"output", options.view.output}, {"width", view.width}, {"height", view.height}, {"backend", options.backend},
-                  {"seconds", seconds}, {"level", baked.level}, {"levels", baked.levels}});
+  session.say(fmt::format("wrote {} ({} x {}, {:.0f} ms)", options.view.output, view.width, view.height,
+                          1000 * seconds));
+  session.result({{"output", options.view.output},
+                  {"width", view.width},
+                  {"height", view.height},
+                  {"backend", options.backend},
+                  {"seconds", seconds},
+                  {"level", baked.level},
+                  {"levels", baked.levels}});
 }
 
 }  // namespace
@@ -54,11 +65,17 @@ void addRelight(CLI::App& app, Action& action) {
   options->view.addTo(*command);
   command->add_option("--method", options->method, "auto, diffuse or glossy; default: the project's")
       ->check(CLI::IsMember(parameterAt("method.name").choices));
-  command->add_option("--window", options->window, "Against ringing: none, hann, lanczos, fejer or dering; default: the project's")
+  command
+      ->add_option("--window", options->window,
+                   "Against ringing: none, hann, lanczos, fejer or dering; default: the project's")
       ->check(CLI::IsMember(parameterAt("method.window").choices));
-  command->add_option("--backend", options->backend, "cpu or gl")->check(CLI::IsMember({"cpu", "gl"}))->capture_default_str();
-  command->footer("Examples:\n  prt relight bunny.prt --env sky.hdr --rotate 90 -o bunny.png\n"
-                  "  prt relight bunny.prt --light circle:45,30:20:8,7,6 --light constant:0.2 --size 1280x720 -o bunny.exr");
+  command->add_option("--backend", options->backend, "cpu or gl")
+      ->check(CLI::IsMember({"cpu", "gl"}))
+      ->capture_default_str();
+  command->footer(
+      "Examples:\n  prt relight bunny.prt --env sky.hdr --rotate 90 -o bunny.png\n"
+      "  prt relight bunny.prt --light circle:45,30:20:8,7,6 --light constant:0.2 --size 1280x720 -o "
+      "bunny.exr");
   command->callback([options, &action] { action = [options](Session& s) { relightProject(s, *options); }; });
 }
 

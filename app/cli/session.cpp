@@ -14,7 +14,8 @@ namespace prt::cli {
 
 void Session::start() {
   setThreadCount(threads);
-  setLogHandler(quiet ? LogLevel::Error : logLevelFromString(logLevel), [](LogLevel level, std::string_view message) {
+  setLogHandler(quiet ? LogLevel::Error : logLevelFromString(logLevel), [](LogLevel level,
+                                                                           std::string_view message) {
     fmt::print(stderr, "{}prt: {}: {}\n", isatty(STDERR_FILENO) ? "\r\x1b[K" : "", toString(level), message);
   });
   const bool watched = !quiet && isatty(STDERR_FILENO) != 0;

@@ -11,9 +11,14 @@ namespace {
 
 void verify(Session& session, const std::string& file) {
   const ProjectFile::Verified v = ProjectFile::verify(file, session.job());
-  session.say(fmt::format("{} is sound: {} products, {} arrays, {} chunks, {} checked", file, v.products, v.arrays, v.chunks,
-                          byteCount(double(v.bytes))));
-  session.result({{"file", file}, {"sound", true}, {"products", v.products}, {"arrays", v.arrays}, {"chunks", v.chunks}, {"bytes", v.bytes}});
+  session.say(fmt::format("{} is sound: {} products, {} arrays, {} chunks, {} checked", file, v.products,
+                          v.arrays, v.chunks, byteCount(double(v.bytes))));
+  session.result({{"file", file},
+                  {"sound", true},
+                  {"products", v.products},
+                  {"arrays", v.arrays},
+                  {"chunks", v.chunks},
+                  {"bytes", v.bytes}});
 }
 
 }  // namespace

@@ -23,15 +23,18 @@ constexpr int kMaxSide = 16384;
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts{""};
   for (const char c : text) {
-    if (c == separator) parts.emplace_back();
-    else parts.back() += c;
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
 
 [[noreturn]] void badLight(const std::string& text, const std::string& problem) {
-  throw UsageError(problem, "--light " + text,
-                   "write circle:DIR:DEG:RGB, directional:DIR:RGB or constant:RGB, as in circle:0,1,0:30:5,5,4");
+  throw UsageError(
+      problem, "--light " + text,
+      "write circle:DIR:DEG:RGB, directional:DIR:RGB or constant:RGB, as in circle:0,1,0:30:5,5,4");
 }
 
 std::vector<double> numbers(const std::string& list, const std::string& light) {
@@ -65,7 +68,8 @@ std::vector<LightRecipe> lightsOf(const ViewOptions& options, const Recipe& reci
   if (!options.environment.empty() || !options.lights.empty()) lights.clear();
   if (!options.environment.empty()) {
     LightRecipe& light = lights.emplace_back();
-    light.path = isBuiltin(options.environment) ? options.environment : fs::absolute(options.environment).string();
+    light.path =
+        isBuiltin(options.environment) ? options.environment : fs::absolute(options.environment).string();
   }
   for (const std::string& text : options.lights) lights.push_back(parseLight(text));
   if (options.rotate)
@@ -76,7 +80,8 @@ std::vector<LightRecipe> lightsOf(const ViewOptions& options, const Recipe& reci
 
 std::string lowerExtension(const std::string& file) {
   std::string text = fs::path(file).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   return text;
 }
 
@@ -84,13 +89,19 @@ std::string lowerExtension(const std::string& file) {
 
 void ViewOptions::addTo(CLI::App& command) {
   command.add_option("PROJECT", project, "Baked project (.prt)")->required();
-  command.add_option("--env", environment, "Environment instead of the project's lights: EXR, HDR, PNG or builtin:NAME");
-  command.add_option("--rotate", rotate, "Turn of the environment about +Y in degrees, counter-clockwise seen from above")
+  command.add_option("--env", environment,
+                     "Environment instead of the project's lights: EXR, HDR, PNG or builtin:NAME");
+  command
+      .add_option("--rotate", rotate,
+                  "Turn of the environment about +Y in degrees, counter-clockwise seen from above")
       ->check(finite());
-  command.add_option("--light", lights, "circle:DIR:DEG:RGB, directional:DIR:RGB or constant:RGB; may be repeated")
+  command
+      .add_option("--light", lights,
+                  "circle:DIR:DEG:RGB, directional:DIR:RGB or constant:RGB; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
-  command.add_option("--camera", camera, "Camera of the project by name, or a .json file; default: the first");
+  command.add_option("--camera", camera,
+                     "Camera of the project by name, or a .json file; default: the first");
   command.add_option("--size", size, "Width x height in pixels")->capture_default_str();
   command.add_flag("--background", background, "Show the environment behind the scene");
   command.add_option("--exposure", exposure, "Stops, for PNG only")
@@ -108,7 +119,8 @@ LightRecipe parseLight(const std::string& text) {
     light.kind = LightKind::Circle;
     light.direction = parseDirection(parts[1], text);
     const std::vector<double> angle = numbers(parts[2], text);
-    if (angle.size() != 1 || angle[0] <= 0 || angle[0] > 360) badLight(text, "'" + parts[2] + "' is not an angle of 0 to 360 degrees");
+    if (angle.size() != 1 || angle[0] <= 0 || angle[0] > 360)
+      badLight(text, "'" + parts[2] + "' is not an angle of 0 to 360 degrees");
     light.angle = float(angle[0]);
   } else if (parts[0] == "directional" && parts.size() == 3) {
     light.kind = LightKind::Directional;
@@ -129,7 +141,8 @@ void parseSize(const std::string& text, int& width, int& height) {
     return error == std::errc() && end == part.data() + part.size() && value >= 1 && value <= kMaxSide;
   };
   if (parts.size() != 2 || !side(parts[0], width) || !side(parts[1], height))
-    throw UsageError("'" + text + "' is not a size", "--size", "write for example 800x600, up to 16384 a side");
+    throw UsageError("'" + text + "' is not a size", "--size",
+                     "write for example 800x600, up to 16384 a side");
 }
 
 Camera parseCamera(const std::string& text, const Recipe& recipe) {
@@ -143,12 +156,14 @@ Camera parseCamera(const std::string& text, const Recipe& recipe) {
     const std::vector<std::byte> bytes = readFile(text, 1 << 20);
     const auto* begin = reinterpret_cast<const char*>(bytes.data());
     const auto json = nlohmann::json::parse(begin, begin + bytes.size(), nullptr, false);
-    if (json.is_discarded()) throw FileError("is not JSON", text, R"(write {"eye": [x,y,z], "target": [x,y,z], "vfov_deg": 30})");
+    if (json.is_discarded())
+      throw FileError("is not JSON", text, R"(write {"eye": [x,y,z], "target": [x,y,z], "vfov_deg": 30})");
     return recipeFromJson({{"cameras", {json}}}, text).cameras.at(0).camera();
   }
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "use " : ", ") + name;
-  throw ValueError("there is no camera '" + text + "'", "--camera", list.empty() ? "give a .json file" : list + " or a .json file");
+  throw ValueError("there is no camera '" + text + "'", "--camera",
+                   list.empty() ? "give a .json file" : list + " or a .json file");
 }
 
 View viewOf(const ViewOptions& options, const Recipe& recipe, const fs::path& folder, const Box3& bounds) {
@@ -157,9 +172,12 @@ View viewOf(const ViewOptions& options, const Recipe& recipe, const fs::path& fo
   EnvironmentCache environments;
   const std::vector<LightRecipe> lights = lightsOf(options, recipe);
   view.lights = makeLightRig(lights, folder, environments);
-  if (!options.camera.empty()) view.camera = parseCamera(options.camera, recipe);
-  else if (!recipe.cameras.empty()) view.camera = recipe.cameras[0].camera();
-  else view.camera = frameBox(bounds);
+  if (!options.camera.empty())
+    view.camera = parseCamera(options.camera, recipe);
+  else if (!recipe.cameras.empty())
+    view.camera = recipe.cameras[0].camera();
+  else
+    view.camera = frameBox(bounds);
   return view;
 }
 

@@ -39,7 +39,8 @@ struct View {
 
 /// Checks what can be checked before long work begins: sizes, names, that the output can be written.
 /// `bounds` frames the scene where no camera is named. Throws UsageError for options that make no sense.
-View viewOf(const ViewOptions& options, const Recipe& recipe, const std::filesystem::path& folder, const Box3& bounds);
+View viewOf(const ViewOptions& options, const Recipe& recipe, const std::filesystem::path& folder,
+            const Box3& bounds);
 
 /// "circle:DIR:DEG:RGB", "directional:DIR:RGB" or "constant:RGB"; DIR = "x,y,z" towards the light or
 /// "azimuth,elevation" in degrees, RGB = "r,g,b" or one number. Throws UsageError.
@@ -49,7 +50,8 @@ void parseSize(const std::string& text, int& width, int& height);
 /// A camera of the recipe by name, or a JSON file.
 Camera parseCamera(const std::string& text, const Recipe& recipe);
 
-/// Throws UsageError unless a file of this name can be written as a picture; FileError where it cannot be put.
+/// Throws UsageError unless a file of this name can be written as a picture; FileError where it cannot be
+/// put.
 void checkPictureOutput(const std::string& output);
 /// Writes a picture: EXR and HDR as radiance, PNG tone-mapped with the exposure.
 void writePicture(const std::string& output, const Image& radiance, double exposure);

@@ -83,7 +83,8 @@ Options parse(const QApplication& application) {
   if (options.frames < 1 || options.frames > 100000)
     wrong(QStringLiteral("--frames takes a number from 1 to 100000"));
   if (parser.isSet(QStringLiteral("errors"))) {
-    const QStringList names{QStringLiteral("total"), QStringLiteral("noise"), QStringLiteral("interpolation"), QStringLiteral("truncation")};
+    const QStringList names{QStringLiteral("total"), QStringLiteral("noise"), QStringLiteral("interpolation"),
+                            QStringLiteral("truncation")};
     const auto index = names.indexOf(parser.value(QStringLiteral("errors")));
     if (index < 0) wrong(QStringLiteral("--errors takes ") + names.join(QStringLiteral(", ")));
     options.errors = prt::ui::ErrorShown(int(prt::ui::ErrorShown::Total) + int(index));

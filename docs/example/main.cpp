@@ -25,7 +25,8 @@ LightRig lightFrom(const Vec3& direction) {
 }
 
 void relight(const char* file) {
-  Job job([](const Progress& p) { std::fprintf(stderr, "\r%s %3.0f %%", p.phase.c_str(), 100 * p.fraction()); });
+  Job job(
+      [](const Progress& p) { std::fprintf(stderr, "\r%s %3.0f %%", p.phase.c_str(), 100 * p.fraction()); });
 
   // A scene: meshes with transforms and materials, flattened into one.
   Material clay;

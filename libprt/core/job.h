@@ -23,7 +23,9 @@ struct Progress {
   double fraction() const { return total > 0 ? done / total : 0; }
   double rate() const { return seconds > 0 ? (done - before) / seconds : 0; }
   /// Seconds left at the rate so far; negative when it is not known.
-  double secondsLeft() const { return done > before && total > 0 ? (total - done) / (done - before) * seconds : -1; }
+  double secondsLeft() const {
+    return done > before && total > 0 ? (total - done) / (done - before) * seconds : -1;
+  }
 };
 
 class Job {

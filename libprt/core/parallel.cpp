@@ -28,13 +28,17 @@ constexpr int kLeavesOneFree = 4;  // threads from which on background work leav
 
 thread_local bool inBackground = false;
 
-/// What threads hand to each other through oneTBB, for ThreadSanitizer: the library itself is not built with it, so that
-/// it does not see that tiles begin after the loop and end before it returns.
+/// What threads hand to each other through oneTBB, for ThreadSanitizer: the library itself is not built with
+/// it, so that it does not see that tiles begin after the loop and end before it returns.
 class Handover {
  public:
 #ifdef __SANITIZE_THREAD__
-  void give() { __tsan_release(this); }
-  void take() { __tsan_acquire(this); }
+  void give() {
+    __tsan_release(this);
+  }
+  void take() {
+    __tsan_acquire(this);
+  }
 #else
   void give() {}
   void take() {}

@@ -25,7 +25,9 @@ void append(const std::string& folder, const std::string& name, Flattened& out) 
   std::ifstream file(folder + "/" + name);
   if (!file) throw std::runtime_error(folder + "/" + name + ": cannot be read");
 
-  const auto place = [&](int line) { return "#line " + std::to_string(line) + " " + std::to_string(number) + "\n"; };
+  const auto place = [&](int line) {
+    return "#line " + std::to_string(line) + " " + std::to_string(number) + "\n";
+  };
   if (number > 0) out.text += place(1);
   int lineNumber = 0;
   for (std::string line; std::getline(file, line);) {

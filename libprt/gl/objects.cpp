@@ -12,34 +12,55 @@
 namespace prt::gl {
 
 namespace detail {
-void deleteBuffer(unsigned id) { glDeleteBuffers(1, &id); }
-void deleteVertexArray(unsigned id) { glDeleteVertexArrays(1, &id); }
-void deleteTexture(unsigned id) { glDeleteTextures(1, &id); }
-void deleteFramebuffer(unsigned id) { glDeleteFramebuffers(1, &id); }
-void deleteProgram(unsigned id) { glDeleteProgram(id); }
+void deleteBuffer(unsigned id) {
+  glDeleteBuffers(1, &id);
+}
+void deleteVertexArray(unsigned id) {
+  glDeleteVertexArrays(1, &id);
+}
+void deleteTexture(unsigned id) {
+  glDeleteTextures(1, &id);
+}
+void deleteFramebuffer(unsigned id) {
+  glDeleteFramebuffers(1, &id);
+}
+void deleteProgram(unsigned id) {
+  glDeleteProgram(id);
+}
 }  // namespace detail
 
 namespace {
 
 GLenum internalFormat(PixelFormat format) {
   switch (format) {
-    case PixelFormat::Rgba8: return GL_RGBA8;
-    case PixelFormat::Rgba16f: return GL_RGBA16F;
-    case PixelFormat::Rgba32f: return GL_RGBA32F;
-    case PixelFormat::R32f: return GL_R32F;
-    case PixelFormat::Depth32f: return GL_DEPTH_COMPONENT32F;
+    case PixelFormat::Rgba8:
+      return GL_RGBA8;
+    case PixelFormat::Rgba16f:
+      return GL_RGBA16F;
+    case PixelFormat::Rgba32f:
+      return GL_RGBA32F;
+    case PixelFormat::R32f:
+      return GL_R32F;
+    case PixelFormat::Depth32f:
+      return GL_DEPTH_COMPONENT32F;
   }
   return GL_NONE;
 }
 
 std::string errorName(GLenum error) {
   switch (error) {
-    case GL_INVALID_ENUM: return "invalid enum";
-    case GL_INVALID_VALUE: return "invalid value";
-    case GL_INVALID_OPERATION: return "invalid operation";
-    case GL_INVALID_FRAMEBUFFER_OPERATION: return "invalid framebuffer operation";
-    case GL_OUT_OF_MEMORY: return "out of memory";
-    default: return "error " + std::to_string(error);
+    case GL_INVALID_ENUM:
+      return "invalid enum";
+    case GL_INVALID_VALUE:
+      return "invalid value";
+    case GL_INVALID_OPERATION:
+      return "invalid operation";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "invalid framebuffer operation";
+    case GL_OUT_OF_MEMORY:
+      return "out of memory";
+    default:
+      return "error " + std::to_string(error);
   }
 }
 
@@ -72,7 +93,9 @@ void Buffer::uploadBytes(const void* data, std::size_t bytes, std::size_t spare)
   bytes_ = bytes;
 }
 
-void Buffer::bindStorage(unsigned binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+void Buffer::bindStorage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
 
 VertexArray VertexArray::create() {
   GLuint id = 0;
@@ -94,7 +117,9 @@ void VertexArray::integers(unsigned location, const Buffer& buffer) {
   glEnableVertexArrayAttrib(id_, location);
 }
 
-void VertexArray::indices(const Buffer& buffer) { glVertexArrayElementBuffer(id_, buffer.id()); }
+void VertexArray::indices(const Buffer& buffer) {
+  glVertexArrayElementBuffer(id_, buffer.id());
+}
 
 Texture Texture::create2d(int width, int height, PixelFormat format, int samples) {
   GLuint id = 0;
@@ -135,7 +160,9 @@ Texture Texture::fromImage(const Image& image, Wrap wrap, bool mipmaps) {
   return texture;
 }
 
-void Texture::bind(unsigned unit) const { glBindTextureUnit(unit, id_); }
+void Texture::bind(unsigned unit) const {
+  glBindTextureUnit(unit, id_);
+}
 
 Framebuffer Framebuffer::create(int width, int height, PixelFormat colour, bool depth, int samples) {
   GLuint id = 0;
@@ -148,8 +175,9 @@ Framebuffer Framebuffer::create(int width, int height, PixelFormat colour, bool 
     glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, framebuffer.depth_.id(), 0);
   }
   if (glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw ResourceError("no render target of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
-                        "OpenGL", "use a smaller picture or fewer samples per pixel");
+    throw ResourceError(
+        "no render target of " + std::to_string(width) + " x " + std::to_string(height) + " pixels", "OpenGL",
+        "use a smaller picture or fewer samples per pixel");
   return framebuffer;
 }
 

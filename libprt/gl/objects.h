@@ -123,8 +123,8 @@ class Framebuffer : public detail::Handle<detail::deleteFramebuffer> {
   Texture colour_, depth_;
 };
 
-/// Clears the bound framebuffer to nothing at the far end, and sets what drawing opaque surfaces with a depth test
-/// needs, whatever was set before.
+/// Clears the bound framebuffer to nothing at the far end, and sets what drawing opaque surfaces with a depth
+/// test needs, whatever was set before.
 void beginSurfaces();
 
 }  // namespace prt::gl

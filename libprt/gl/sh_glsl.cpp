@@ -18,7 +18,9 @@ std::string evaluation(int bands) {
   for (int m = 0; m < bands; ++m) {
     if (m > 0) diagonal *= std::sqrt((2.0 * m + 1) / (2.0 * m));
     if (m == 1) code += "float c1 = d.x, s1 = d.y;\n";
-    if (m > 1) code += fmt::format("float c{0} = d.x * c{1} - d.y * s{1}, s{0} = d.x * s{1} + d.y * c{1};\n", m, m - 1);
+    if (m > 1)
+      code +=
+          fmt::format("float c{0} = d.x * c{1} - d.y * s{1}, s{0} = d.x * s{1} + d.y * c{1};\n", m, m - 1);
     for (int l = m; l < bands; ++l) {
       const std::string q = fmt::format("q{}_{}", l, m);
       if (l == m) {
@@ -32,8 +34,11 @@ std::string evaluation(int bands) {
         }
         code += ";\n";
       }
-      if (m == 0) code += fmt::format("y[{}] = {};\n", shIndex(l, 0), q);
-      else code += fmt::format("y[{}] = {} * c{};\ny[{}] = {} * s{};\n", shIndex(l, m), q, m, shIndex(l, -m), q, m);
+      if (m == 0)
+        code += fmt::format("y[{}] = {};\n", shIndex(l, 0), q);
+      else
+        code +=
+            fmt::format("y[{}] = {} * c{};\ny[{}] = {} * s{};\n", shIndex(l, m), q, m, shIndex(l, -m), q, m);
     }
   }
   return code + "}\n";

@@ -98,7 +98,8 @@ EnvironmentMap withGround(Image image, const Rgb& albedo, const std::string& nam
   return EnvironmentMap(image, EnvironmentMapping::LatLong, name);
 }
 
-/// The clear sky without its sun, black below the horizon, and the sun's irradiance on what faces it; both in klx.
+/// The clear sky without its sun, black below the horizon, and the sun's irradiance on what faces it; both in
+/// klx.
 struct ClearSkyParts {
   DVec3 toSun;
   Image sky;

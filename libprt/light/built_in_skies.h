@@ -30,9 +30,10 @@ struct ClearSky {
 /// Throws ValueError when the sun is not at least one degree above the horizon.
 EnvironmentMap clearSky(const ClearSky& sky = {}, int width = 512, int height = 256);
 
-/// The same sky in a moment, to follow a sun that is dragged. `map` is coarse, `coefficients` are not made from
-/// it: the sky and ground are projected from its pixels without the sun, and the sun's disc is added in closed
-/// form, so that it moves smoothly. Within 1 % of projecting clearSky() (relative, all bands together).
+/// The same sky in a moment, to follow a sun that is dragged. `map` is coarse, `coefficients` are not made
+/// from it: the sky and ground are projected from its pixels without the sun, and the sun's disc is added in
+/// closed form, so that it moves smoothly. Within 1 % of projecting clearSky() (relative, all bands
+/// together).
 struct QuickSky {
   EnvironmentMap map;
   ShRgb coefficients;

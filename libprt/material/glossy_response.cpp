@@ -139,8 +139,8 @@ void GlossyResponse::weightsAt(float viewAngle, std::span<float> out) const {
   const int functions = shCount(bands_);
   const float* row = table_.data() + std::size_t(first) * std::size_t(functions);
   for (int i = 0; i < functions; ++i)
-    out[std::size_t(i)] = mix[0] * row[i] + mix[1] * row[i + functions] +
-                              mix[2] * row[i + 2 * functions] + mix[3] * row[i + 3 * functions];
+    out[std::size_t(i)] = mix[0] * row[i] + mix[1] * row[i + functions] + mix[2] * row[i + 2 * functions] +
+                          mix[3] * row[i + 3 * functions];
 }
 
 void GlossyResponse::evaluate(const Vec3& normal, const Vec3& view, std::span<float> out) const {

@@ -79,8 +79,10 @@ class Diagnosis {
         corners_[c] = representative_[v];
       }
       if (!inRange) report_.outOfRangeFaces.add(std::uint32_t(f));
-      if (!inRange) placeUsableCorners(report_.outOfRangeFaces, f);
-      else if (!isFinite) placeUsableCorners(report_.nonFiniteVertices, f);
+      if (!inRange)
+        placeUsableCorners(report_.outOfRangeFaces, f);
+      else if (!isFinite)
+        placeUsableCorners(report_.nonFiniteVertices, f);
       const bool usable = inRange && isFinite;
       const bool spans = usable && threeDifferent(f);
       if (usable && (!spans || hasNoArea(f))) {
@@ -239,7 +241,8 @@ class Diagnosis {
       }
       if (count == 1) ++report_.boundaryEdges;
       const bool flipped = count == 2 && corners_[edge.sides[0]] == corners_[edge.sides[1]];
-      for (Defect* defect : {count > 2 ? &report_.nonManifoldEdges : nullptr, flipped ? &report_.flippedEdges : nullptr}) {
+      for (Defect* defect :
+           {count > 2 ? &report_.nonManifoldEdges : nullptr, flipped ? &report_.flippedEdges : nullptr}) {
         if (!defect) continue;
         defect->add(edge.a);
         placeEdge(*defect, edge.a, edge.b);
@@ -343,7 +346,8 @@ class Diagnosis {
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (edges[e].faceCount() == 1) boundary.push_back(edges[e].sides[0]);
     for (std::uint32_t side : boundary) loops.join(fans.find(side), fans.find(next[side]));
-    std::map<std::uint32_t, std::vector<DVec3>> edgesOf;  // the first loops', in rising order of their first side
+    std::map<std::uint32_t, std::vector<DVec3>>
+        edgesOf;  // the first loops', in rising order of their first side
     std::vector<std::uint32_t> order;
     std::vector<bool> counted(corners_.size(), false);
     for (std::uint32_t side : boundary) {
@@ -353,7 +357,8 @@ class Diagnosis {
       counted[loop] = true;
       const auto kept = edgesOf.find(loop);
       if (kept == edgesOf.end() || kept->second.size() >= DefectPlaces::kMost) continue;
-      kept->second.insert(kept->second.end(), {soup_.positions[corners_[side]], soup_.positions[corners_[next[side]]]});
+      kept->second.insert(kept->second.end(),
+                          {soup_.positions[corners_[side]], soup_.positions[corners_[next[side]]]});
     }
     for (const std::uint32_t loop : order) report_.holes.places.add(DefectPlaces::Edges, edgesOf[loop]);
   }

@@ -101,7 +101,8 @@ std::vector<std::string> repairActions(const RepairReport& report) {
   for (const NamedCount& action : kActions) {
     const std::size_t count = report.*action.member;
     if (count > 0)
-      actions.push_back(std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
+      actions.push_back(
+          std::string(action.done).append(" ").append(counted(count, action.singular, action.plural)));
   }
   if (report.offset != DVec3(0)) actions.emplace_back("moved to the origin to keep precision");
   return actions;

@@ -19,7 +19,7 @@ struct ExportInput {
   const Recipe& recipe;
   BakedScene baked;
   std::shared_ptr<const FramesProduct> frames;
-  LightRig lights;  ///< the light that pictures and vertex colours show
+  LightRig lights;                                   ///< the light that pictures and vertex colours show
   std::shared_ptr<const ErrorMap> errors = nullptr;  ///< written by exportNpy() when given
 };
 

@@ -160,9 +160,11 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
         "exit radiance of a white Lambert surface per unit light coefficient");
   if (input.errors) {
     const DVec3& rms = input.errors->rms;
-    manifest.set("error_rms", std::vector<double>{rms.x, rms.y, rms.z}).set("mean_irradiance", input.errors->meanIrradiance);
+    manifest.set("error_rms", std::vector<double>{rms.x, rms.y, rms.z})
+        .set("mean_irradiance", input.errors->meanIrradiance);
     write("error_estimate", rows(input.errors->vertices),
-          "estimated error of irradiance under the current lights, relative to its root-mean-square: Monte Carlo, "
+          "estimated error of irradiance under the current lights, relative to its root-mean-square: Monte "
+          "Carlo, "
           "interpolation, truncation; -1 inside of something");
   }
   return manifest.finish();

@@ -24,7 +24,8 @@ EnvironmentMap readMap(const LightRecipe& light, const std::filesystem::path& fo
   return loadEnvironment(folder / light.path, named);
 }
 
-void addEnvironment(LightRig& rig, const LightRecipe& light, const std::filesystem::path& folder, EnvironmentCache& cache) {
+void addEnvironment(LightRig& rig, const LightRecipe& light, const std::filesystem::path& folder,
+                    EnvironmentCache& cache) {
   if (light.intensity == 0) return;
   if (rig.environment)
     throw ValueError("two environments are lit", "lights: " + light.name, "switch all but one off");
@@ -53,10 +54,12 @@ Vec3 worldDirection(const LightRecipe& light) {
   return environmentRotation(float(radians(light.rotation))) * own;
 }
 
-std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const LightRecipe& light, const std::filesystem::path& folder) {
+std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const LightRecipe& light,
+                                                            const std::filesystem::path& folder) {
   std::string key = mapKey(light);
   if (!isBuiltin(light.path)) key += ' ' + hashSource(folder / light.path);
-  const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+  const auto known =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
   if (known != entries_.end()) {
     std::rotate(known, known + 1, entries_.end());
   } else {
@@ -66,21 +69,31 @@ std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const LightRecipe& l
   return entries_.back().map;
 }
 
-std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const std::string& path, const std::string& mapping,
+std::shared_ptr<const EnvironmentMap> EnvironmentCache::get(const std::string& path,
+                                                            const std::string& mapping,
                                                             const std::filesystem::path& folder) {
   return get(LightRecipe{.path = path, .mapping = mapping}, folder);
 }
 
-LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder, EnvironmentCache& cache) {
+LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder,
+                      EnvironmentCache& cache) {
   LightRig rig;
   for (const LightRecipe& light : lights) {
     if (!light.on) continue;
     const Rgb color = light.radiance * light.intensity;
     switch (light.kind) {
-      case LightKind::Environment: addEnvironment(rig, light, folder, cache); break;
-      case LightKind::Circle: rig.circles.push_back({worldDirection(light), float(radians(light.angle / 2)), color}); break;
-      case LightKind::Directional: rig.directionals.push_back({worldDirection(light), color}); break;
-      case LightKind::Constant: rig.constant += color; break;
+      case LightKind::Environment:
+        addEnvironment(rig, light, folder, cache);
+        break;
+      case LightKind::Circle:
+        rig.circles.push_back({worldDirection(light), float(radians(light.angle / 2)), color});
+        break;
+      case LightKind::Directional:
+        rig.directionals.push_back({worldDirection(light), color});
+        break;
+      case LightKind::Constant:
+        rig.constant += color;
+        break;
     }
   }
   validate(rig);
@@ -91,10 +104,15 @@ ShRgb windowed(const ShRgb& light, const std::string& window) {
   if (window == "none") return light;
   if (window == "dering") return dering(light).light;
   ShRgb out = light;
-  if (window == "hann") scaleBands(hannWindow(light.bands), out);
-  else if (window == "lanczos") scaleBands(lanczosWindow(light.bands), out);
-  else if (window == "fejer") scaleBands(fejerWindow(light.bands), out);
-  else throw ValueError("there is no window '" + window + "'", "method.window", "use none, hann, lanczos, fejer or dering");
+  if (window == "hann")
+    scaleBands(hannWindow(light.bands), out);
+  else if (window == "lanczos")
+    scaleBands(lanczosWindow(light.bands), out);
+  else if (window == "fejer")
+    scaleBands(fejerWindow(light.bands), out);
+  else
+    throw ValueError("there is no window '" + window + "'", "method.window",
+                     "use none, hann, lanczos, fejer or dering");
   return out;
 }
 

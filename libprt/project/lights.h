@@ -45,8 +45,10 @@ std::string mapKey(const LightRecipe& light);
 /// rotation applied.
 Vec3 worldDirection(const LightRecipe& light);
 
-/// All lights that are on, together. Throws ValueError when more than one environment is lit (intensity above 0).
-LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder, EnvironmentCache& cache);
+/// All lights that are on, together. Throws ValueError when more than one environment is lit (intensity above
+/// 0).
+LightRig makeLightRig(std::span<const LightRecipe> lights, const std::filesystem::path& folder,
+                      EnvironmentCache& cache);
 
 /// Light damped against ringing: "none", "hann", "lanczos", "fejer", or "dering" for as little of the latter
 /// as leaves no negative light. Throws ValueError for other names.

@@ -18,7 +18,8 @@ Array rows(const std::vector<V>& vectors) {
   using T = typename V::value_type;
   static_assert(sizeof(V) == std::size_t(V::length()) * sizeof(T));
   const T* first = vectors.empty() ? nullptr : &vectors[0][0];
-  return Array::from<T>(std::span(first, vectors.size() * std::size_t(V::length())), {std::int64_t(vectors.size()), V::length()});
+  return Array::from<T>(std::span(first, vectors.size() * std::size_t(V::length())),
+                        {std::int64_t(vectors.size()), V::length()});
 }
 
 /// The reverse; the array must be [N, length of V].
@@ -26,7 +27,8 @@ template <class V>
 std::vector<V> vectors(const ProductData& data, const std::string& name) {
   using T = typename V::value_type;
   const Array& array = data.array(name, dtypeOf<T>(), 2);
-  if (array.shape[1] != V::length()) throw FileError("array '" + name + "' has another shape than it must", "project", "bake again");
+  if (array.shape[1] != V::length())
+    throw FileError("array '" + name + "' has another shape than it must", "project", "bake again");
   std::vector<V> out(std::size_t(array.shape[0]));
   if (!out.empty()) std::memcpy(out.data(), array.bytes.data(), array.bytes.size());
   return out;
@@ -38,7 +40,9 @@ void requireIndices(const std::vector<UVec3>& triangles, std::size_t count, cons
       throw FileError("array '" + name + "' points outside the mesh", "project", "bake again");
 }
 
-std::string arrayName(const char* what, std::size_t object) { return std::string(what) + "." + std::to_string(object); }
+std::string arrayName(const char* what, std::size_t object) {
+  return std::string(what) + "." + std::to_string(object);
+}
 
 TriMesh loadTriMesh(const ProductData& data, std::size_t object) {
   TriMesh mesh;
@@ -49,7 +53,8 @@ TriMesh loadTriMesh(const ProductData& data, std::size_t object) {
   mesh.uvTriangles = vectors<UVec3>(data, arrayName("uvTriangles", object));
   requireIndices(mesh.triangles, mesh.positions.size(), "triangles");
   requireIndices(mesh.uvTriangles, mesh.uv.size(), "uvTriangles");
-  const bool uvFits = mesh.uv.empty() ? mesh.uvTriangles.empty() : mesh.uvTriangles.size() == mesh.triangles.size();
+  const bool uvFits =
+      mesh.uv.empty() ? mesh.uvTriangles.empty() : mesh.uvTriangles.size() == mesh.triangles.size();
   if (mesh.normals.size() != mesh.positions.size() || !uvFits)
     throw FileError("the arrays of a mesh do not fit together", "project", "bake again");
   return mesh;
@@ -64,14 +69,16 @@ json metaOf(const ProductData& data) {
 int wholeNumber(const json& meta, const char* name, int low, int high) {
   const auto found = meta.find(name);
   if (found == meta.end() || !found->is_number_integer() || *found < low || *found > high)
-    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project", "bake again");
+    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project",
+                    "bake again");
   return found->get<int>();
 }
 
 double number(const json& meta, const char* name) {
   const auto found = meta.find(name);
   if (found == meta.end() || !found->is_number() || !(*found >= 0))
-    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project", "bake again");
+    throw FileError(std::string("'") + name + "' of a product is not what it must be", "project",
+                    "bake again");
   return found->get<double>();
 }
 
@@ -90,7 +97,8 @@ Array take(ProductData& data, const std::string& name) {
 }
 
 /// Throws unless the array is float (or half where allowed) and of this shape.
-void requireShape(const Array& array, std::vector<std::int64_t> shape, bool halfToo, const std::string& stage) {
+void requireShape(const Array& array, std::vector<std::int64_t> shape, bool halfToo,
+                  const std::string& stage) {
   const bool type = array.dtype == DType::f32 || (halfToo && array.dtype == DType::f16);
   if (!type || array.shape != shape) unfit(stage);
 }
@@ -108,10 +116,17 @@ void checkShapes(const Transfer& t) {
   const std::int64_t k = t.functions(), wide = std::int64_t(2 * t.bands - 1) * (2 * t.bands - 1);
   if (t.channels != 1 && t.channels != 3) unfit(stage);
   switch (t.form) {
-    case TransferForm::None: break;
-    case TransferForm::Diffuse: requireShape(t.values, vectorShape(samples, k, t.channels), true, stage); break;
-    case TransferForm::Visibility: requireShape(t.values, {samples, wide}, true, stage); break;
-    case TransferForm::Matrix: requireShape(t.values, {samples, t.channels, k, k}, true, stage); break;
+    case TransferForm::None:
+      break;
+    case TransferForm::Diffuse:
+      requireShape(t.values, vectorShape(samples, k, t.channels), true, stage);
+      break;
+    case TransferForm::Visibility:
+      requireShape(t.values, {samples, wide}, true, stage);
+      break;
+    case TransferForm::Matrix:
+      requireShape(t.values, {samples, t.channels, k, k}, true, stage);
+      break;
   }
   if (t.form == TransferForm::Visibility || t.form == TransferForm::Matrix)
     requireShape(t.diffuse, vectorShape(samples, k, t.channels), false, stage);
@@ -125,7 +140,10 @@ std::string defectArray(const char* what, DefectKind kind, std::size_t object) {
 json saveDefects(const std::vector<DefectLine>& lines, std::size_t object, ProductData& data) {
   json list = json::array();
   for (const DefectLine& line : lines) {
-    list.push_back({{"kind", defectKey(line.kind)}, {"found", line.found}, {"left", line.left}, {"shape", int(line.places.shape)}});
+    list.push_back({{"kind", defectKey(line.kind)},
+                    {"found", line.found},
+                    {"left", line.left},
+                    {"shape", int(line.places.shape)}});
     data.arrays[defectArray("defectPlaces", line.kind, object)] =
         rows(std::vector<Vec3>(line.places.positions.begin(), line.places.positions.end()));
     data.arrays[defectArray("defectStarts", line.kind, object)] =
@@ -137,14 +155,19 @@ json saveDefects(const std::vector<DefectLine>& lines, std::size_t object, Produ
 /// Elements that lie one behind the other, of whole simplices, at finite places.
 DefectPlaces loadPlaces(const ProductData& data, const json& line, DefectKind kind, std::size_t object) {
   DefectPlaces places;
-  places.shape = DefectPlaces::Shape(wholeNumber(line, "shape", DefectPlaces::Points, DefectPlaces::Triangles));
-  for (const Vec3& p : vectors<Vec3>(data, defectArray("defectPlaces", kind, object))) places.positions.emplace_back(p);
-  const auto starts = data.array(defectArray("defectStarts", kind, object), DType::u32, 1).as<std::uint32_t>();
+  places.shape =
+      DefectPlaces::Shape(wholeNumber(line, "shape", DefectPlaces::Points, DefectPlaces::Triangles));
+  for (const Vec3& p : vectors<Vec3>(data, defectArray("defectPlaces", kind, object)))
+    places.positions.emplace_back(p);
+  const auto starts =
+      data.array(defectArray("defectStarts", kind, object), DType::u32, 1).as<std::uint32_t>();
   places.starts.assign(starts.begin(), starts.end());
-  const bool whole = std::ranges::all_of(places.starts, [&](std::uint32_t s) { return s % places.shape == 0; });
+  const bool whole =
+      std::ranges::all_of(places.starts, [&](std::uint32_t s) { return s % places.shape == 0; });
   const bool sound = std::ranges::all_of(places.positions, [](const DVec3& p) { return isFinite(Vec3(p)); });
-  if (places.starts.empty() || places.starts.front() != 0 || places.starts.back() != places.positions.size() ||
-      !std::ranges::is_sorted(places.starts) || !whole || !sound || places.positions.size() > DefectPlaces::kMost)
+  if (places.starts.empty() || places.starts.front() != 0 ||
+      places.starts.back() != places.positions.size() || !std::ranges::is_sorted(places.starts) || !whole ||
+      !sound || places.positions.size() > DefectPlaces::kMost)
     unfit("mesh");
   return places;
 }
@@ -160,7 +183,8 @@ std::vector<DefectLine> loadDefects(const ProductData& data, const json& descrip
                           : std::nullopt;
     if (!kind) unfit("mesh");
     constexpr int kMany = std::numeric_limits<int>::max();
-    lines.push_back({*kind, std::size_t(wholeNumber(each, "found", 0, kMany)), std::size_t(wholeNumber(each, "left", 0, kMany)),
+    lines.push_back({*kind, std::size_t(wholeNumber(each, "found", 0, kMany)),
+                     std::size_t(wholeNumber(each, "left", 0, kMany)),
                      loadPlaces(data, each, *kind, object)});
   }
   return lines;
@@ -173,7 +197,9 @@ void checkDescription(const json& description) {
     if (description.contains(name) && !description[name].is_string()) unfit("mesh");
   const auto notes = description.find("notes");
   if (notes == description.end()) return;
-  if (!notes->is_array() || !std::all_of(notes->begin(), notes->end(), [](const json& n) { return n.is_string(); })) unfit("mesh");
+  if (!notes->is_array() ||
+      !std::all_of(notes->begin(), notes->end(), [](const json& n) { return n.is_string(); }))
+    unfit("mesh");
 }
 
 }  // namespace
@@ -215,7 +241,9 @@ std::string MeshProduct::repairText(std::size_t object) const {
   return json::parse(reports[object]).value("text", "nothing to repair");
 }
 
-std::string MeshProduct::factsText(std::size_t object) const { return json::parse(reports[object]).value("facts", ""); }
+std::string MeshProduct::factsText(std::size_t object) const {
+  return json::parse(reports[object]).value("facts", "");
+}
 
 std::vector<std::string> MeshProduct::notes(std::size_t object) const {
   return json::parse(reports[object]).value("notes", std::vector<std::string>{});
@@ -255,9 +283,10 @@ ProductPtr DirectProduct::load(ProductData data) {
 }
 
 ProductData TransferProduct::save() const {
-  const json meta{{"form", int(transfer.form)},      {"bands", transfer.bands},         {"channels", transfer.channels},
-                  {"samples", transfer.samples},     {"gathered", transfer.raysPerSample}, {"rays", transfer.raysWanted},
-                  {"bounces", transfer.bounces},     {"storageError", transfer.storageError}};
+  const json meta{{"form", int(transfer.form)},         {"bands", transfer.bands},
+                  {"channels", transfer.channels},      {"samples", transfer.samples},
+                  {"gathered", transfer.raysPerSample}, {"rays", transfer.raysWanted},
+                  {"bounces", transfer.bounces},        {"storageError", transfer.storageError}};
   ProductData data{meta.dump(), {}};
   put(data, "values", transfer.values);
   put(data, "diffuse", transfer.diffuse);
@@ -284,8 +313,10 @@ ProductPtr TransferProduct::load(ProductData data) {
 }
 
 ProductData FloorProduct::save() const {
-  const json meta{{"interpolation", floor.interpolation}, {"interpolationError", floor.interpolationError},
-                  {"product", floor.product},             {"sampling", floor.sampling},
+  const json meta{{"interpolation", floor.interpolation},
+                  {"interpolationError", floor.interpolationError},
+                  {"product", floor.product},
+                  {"sampling", floor.sampling},
                   {"points", floor.points}};
   return {meta.dump(), {}};
 }

@@ -15,7 +15,9 @@ Mat4 TransformRecipe::matrix() const {
   return glm::scale(m, scale);
 }
 
-Camera CameraRecipe::camera() const { return {eye, target, up, float(radians(verticalFov)), orthographic}; }
+Camera CameraRecipe::camera() const {
+  return {eye, target, up, float(radians(verticalFov)), orthographic};
+}
 
 void checkRecipe(const Recipe& recipe, const std::string& where) {
   const auto at = [&](const std::string& path) { return where.empty() ? path : where + ": " + path; };
@@ -23,23 +25,29 @@ void checkRecipe(const Recipe& recipe, const std::string& where) {
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     const Vec3& s = recipe.objects[i].transform.scale;
     if (s.x * s.y * s.z == 0)
-      throw ValueError("flattens the object", at("objects[" + std::to_string(i) + "].transform.scale"), "use factors other than 0");
+      throw ValueError("flattens the object", at("objects[" + std::to_string(i) + "].transform.scale"),
+                       "use factors other than 0");
   }
   for (std::size_t i = 0; i < recipe.lights.size(); ++i)
     if (recipe.lights[i].direction == Vec3(0))
-      throw ValueError("has no length", at("lights[" + std::to_string(i) + "].direction"), "point it towards the light");
+      throw ValueError("has no length", at("lights[" + std::to_string(i) + "].direction"),
+                       "point it towards the light");
   for (std::size_t i = 0; i < recipe.cameras.size(); ++i) {
     const CameraRecipe& c = recipe.cameras[i];
     const std::string camera = "cameras[" + std::to_string(i) + "]";
-    if (c.eye == c.target) throw ValueError("is where the eye is", at(camera + ".target"), "move one of them");
+    if (c.eye == c.target)
+      throw ValueError("is where the eye is", at(camera + ".target"), "move one of them");
     if (length(cross(normalize(c.target - c.eye), c.up)) <= 1e-6f * length(c.up))
       throw ValueError("is along the view", at(camera + ".up"), "use another direction");
   }
 }
 
-bool isBuiltin(const std::string& path) { return path.starts_with("builtin:") || path.starts_with("scene:"); }
+bool isBuiltin(const std::string& path) {
+  return path.starts_with("builtin:") || path.starts_with("scene:");
+}
 
-std::string rebasedPath(const std::string& path, const std::filesystem::path& from, const std::filesystem::path& to) {
+std::string rebasedPath(const std::string& path, const std::filesystem::path& from,
+                        const std::filesystem::path& to) {
   namespace fs = std::filesystem;
   if (path.empty() || isBuiltin(path) || fs::path(path).is_absolute()) return path;
   const fs::path target = fs::absolute(to).lexically_normal();

@@ -33,8 +33,8 @@ struct MeshRecipe {
   bool weld = true;                   ///< merge vertices at one position
   MeshOrientation orientation = MeshOrientation::Outward;
   bool splitNonManifold = false;
-  bool keepNormals = true;            ///< of the file, where it has them
-  float crease = 180;                 ///< degrees: computed normals are not smoothed across sharper edges
+  bool keepNormals = true;  ///< of the file, where it has them
+  float crease = 180;       ///< degrees: computed normals are not smoothed across sharper edges
   bool operator==(const MeshRecipe&) const = default;
 };
 
@@ -64,13 +64,13 @@ struct LightRecipe {
   bool on = true;                          ///< off: as if the light were not in the list
   std::string path = "builtin:clear-sky";  ///< environment: file or "builtin:NAME"
   std::string mapping = "auto";            ///< environment: layout of the image
-  float sunAzimuth = -135;                 ///< builtin:clear-sky: degrees from -Z, counter-clockwise from above
-  float sunElevation = 45;                 ///< builtin:clear-sky: degrees above the horizon
-  float rotation = 0;                      ///< degrees about +Y, counter-clockwise seen from above
-  float intensity = 1;                     ///< factor on everything this light sends
-  Vec3 direction{0, 1, 0};                 ///< circle, directional: towards the light; any length but 0
-  float angle = 30;                        ///< circle: degrees across, edge to edge
-  Rgb radiance{1};  ///< circle, constant: radiance; directional: irradiance on a surface facing it
+  float sunAzimuth = -135;  ///< builtin:clear-sky: degrees from -Z, counter-clockwise from above
+  float sunElevation = 45;  ///< builtin:clear-sky: degrees above the horizon
+  float rotation = 0;       ///< degrees about +Y, counter-clockwise seen from above
+  float intensity = 1;      ///< factor on everything this light sends
+  Vec3 direction{0, 1, 0};  ///< circle, directional: towards the light; any length but 0
+  float angle = 30;         ///< circle: degrees across, edge to edge
+  Rgb radiance{1};          ///< circle, constant: radiance; directional: irradiance on a surface facing it
   bool operator==(const LightRecipe&) const = default;
 };
 
@@ -142,8 +142,8 @@ std::string toString(ParameterType type);
 struct Parameter {
   std::string path;  ///< "objects[].mesh.path"; [] stands for an index
   ParameterType type = ParameterType::Number;
-  std::string unit;      ///< "degrees", "rays", or empty
-  double low = 0;        ///< numbers, and each component of a colour or vector; low == high: no limits
+  std::string unit;  ///< "degrees", "rays", or empty
+  double low = 0;    ///< numbers, and each component of a colour or vector; low == high: no limits
   double high = 0;
   std::vector<std::string> choices;
   std::string defaultText;  ///< as JSON
@@ -169,7 +169,8 @@ nlohmann::json getByPath(const Recipe& recipe, const std::string& path);
 std::vector<std::string> pathsOf(const Recipe& recipe);
 
 /// A relative path seen from folder `from` as one seen from folder `to`; absolute and built-in ones stay.
-std::string rebasedPath(const std::string& path, const std::filesystem::path& from, const std::filesystem::path& to);
+std::string rebasedPath(const std::string& path, const std::filesystem::path& from,
+                        const std::filesystem::path& to);
 /// The same for all file paths of a recipe.
 void rebasePaths(Recipe& recipe, const std::filesystem::path& from, const std::filesystem::path& to);
 

@@ -29,7 +29,9 @@ json::json_pointer pointerOf(const std::string& path) {
   return json::json_pointer("/" + pointer);
 }
 
-std::string at(const std::string& where, const std::string& path) { return where.empty() ? path : where + ": " + path; }
+std::string at(const std::string& where, const std::string& path) {
+  return where.empty() ? path : where + ": " + path;
+}
 
 void checkVersion(const json& root, const std::string& where) {
   const auto version = root.find("version");
@@ -49,9 +51,11 @@ json withoutShortForms(json root, const std::string& where) {
     if (!root.contains("objects")) root["objects"] = json::array({json::object()});
     json& objects = root["objects"];
     if (!objects.is_array() || objects.empty() || !objects[0].is_object())
-      throw ValueError("'" + std::string(section) + "' needs an object to belong to", where, "leave out 'objects'");
+      throw ValueError("'" + std::string(section) + "' needs an object to belong to", where,
+                       "leave out 'objects'");
     if (objects[0].contains(section))
-      throw ValueError("is given twice", at(where, section), "keep one of '" + std::string(section) + "' and 'objects[0]." + section + "'");
+      throw ValueError("is given twice", at(where, section),
+                       "keep one of '" + std::string(section) + "' and 'objects[0]." + section + "'");
     objects[0][section] = *short_;
     root.erase(section);
   }
@@ -68,7 +72,8 @@ void resizeArrays(Recipe& recipe, const json& root, const std::string& where) {
     const auto given = root.find(array.name);
     if (given == root.end()) continue;
     if (!given->is_array()) throw ValueError("is not a list", at(where, array.name), "write it in [ ]");
-    if (given->size() > kMaxArray) throw ValueError("has too many entries", at(where, array.name), "keep it below 4096");
+    if (given->size() > kMaxArray)
+      throw ValueError("has too many entries", at(where, array.name), "keep it below 4096");
     array.resize(given->size());
   }
 }
@@ -87,7 +92,8 @@ struct KnownKeys {
   }
 };
 
-void refuseUnknown(const json& node, const std::string& path, const KnownKeys& known, const std::string& where) {
+void refuseUnknown(const json& node, const std::string& path, const KnownKeys& known,
+                   const std::string& where) {
   if (known.fields.contains(path)) return;
   if (known.sections.contains(path)) {
     if (!node.is_object()) throw ValueError("is not a group of settings", at(where, path), "write it in { }");
@@ -101,7 +107,8 @@ void refuseUnknown(const json& node, const std::string& path, const KnownKeys& k
     return;
   }
   const std::string nearest = nearestName(path, {known.fields.begin(), known.fields.end()});
-  throw ValueError("there is no such setting", at(where, path), nearest.empty() ? "remove it" : "did you mean " + nearest + "?");
+  throw ValueError("there is no such setting", at(where, path),
+                   nearest.empty() ? "remove it" : "did you mean " + nearest + "?");
 }
 
 /// Parses, refusing what JSON leaves open: keys given twice, nesting without end.
@@ -125,7 +132,10 @@ json parseStrictly(const std::string& text, const std::string& where) {
 }  // namespace
 
 json recipeToJson(const Recipe& recipe) {
-  json root{{"version", kRecipeVersion}, {"objects", json::array()}, {"lights", json::array()}, {"cameras", json::array()}};
+  json root{{"version", kRecipeVersion},
+            {"objects", json::array()},
+            {"lights", json::array()},
+            {"cameras", json::array()}};
   Recipe copy = recipe;
   forEachField(copy, [&](const FieldPlace& place, const FieldRef& field) {
     root[pointerOf(place.path())] = fieldToJson(field, place.parameter);

@@ -38,7 +38,8 @@ std::string pattern(const std::string& path) {
 std::vector<std::string> withShortForms(std::vector<std::string> paths) {
   const std::string first = "objects[0].";
   for (std::size_t i = paths.size(); i-- > 0;)
-    if (paths[i].starts_with(first) && paths[i] != "objects[0].name") paths.push_back(paths[i].substr(first.size()));
+    if (paths[i].starts_with(first) && paths[i] != "objects[0].name")
+      paths.push_back(paths[i].substr(first.size()));
   return paths;
 }
 
@@ -74,7 +75,8 @@ Found find(Recipe& recipe, const std::string& path) {
 
 /// The JSON that a command line's text means for a parameter.
 json valueOf(const Parameter& p, const std::string& text) {
-  const bool wantsText = p.type == ParameterType::Text || p.type == ParameterType::File || p.type == ParameterType::Choice;
+  const bool wantsText =
+      p.type == ParameterType::Text || p.type == ParameterType::File || p.type == ParameterType::Choice;
   json value = json::parse(text, nullptr, false);
   if (wantsText) return value.is_string() ? value : json(text);
   if (p.type == ParameterType::Color || p.type == ParameterType::Vector) {
@@ -128,11 +130,14 @@ json getByPath(const Recipe& recipe, const std::string& path) {
 }
 
 std::string toString(ParameterType type) {
-  static const std::map<ParameterType, std::string> names{
-      {ParameterType::Boolean, "true or false"}, {ParameterType::Integer, "whole number"},
-      {ParameterType::Number, "number"},         {ParameterType::Text, "text"},
-      {ParameterType::File, "file"},             {ParameterType::Choice, "choice"},
-      {ParameterType::Color, "[r, g, b]"},       {ParameterType::Vector, "[x, y, z]"}};
+  static const std::map<ParameterType, std::string> names{{ParameterType::Boolean, "true or false"},
+                                                          {ParameterType::Integer, "whole number"},
+                                                          {ParameterType::Number, "number"},
+                                                          {ParameterType::Text, "text"},
+                                                          {ParameterType::File, "file"},
+                                                          {ParameterType::Choice, "choice"},
+                                                          {ParameterType::Color, "[r, g, b]"},
+                                                          {ParameterType::Vector, "[x, y, z]"}};
   return names.at(type);
 }
 

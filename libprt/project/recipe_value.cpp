@@ -30,7 +30,9 @@ double brief(float value) {
   return std::strtod(text, nullptr);
 }
 
-std::string number(double value) { return json(value).dump(); }
+std::string number(double value) {
+  return json(value).dump();
+}
 
 std::string range(const Parameter& p) {
   if (p.low == p.high) return "use a finite number";
@@ -72,7 +74,8 @@ std::string text(const json& value, const std::string& where) {
   const auto& s = value.get_ref<const std::string&>();
   const auto isControl = [](char c) { return (unsigned char)(c) < 0x20 || c == 0x7f; };
   if (s.size() > 4096 || std::any_of(s.begin(), s.end(), isControl))
-    throw ValueError("text is too long or has control characters", where, "give a plain text of up to 4096 bytes");
+    throw ValueError("text is too long or has control characters", where,
+                     "give a plain text of up to 4096 bytes");
   requireUtf8(s, where);
   return s;
 }
@@ -99,13 +102,15 @@ void requireUtf8(const std::string& text, const std::string& where) {
 }
 
 json fieldToJson(const FieldRef& field, const Parameter& p) {
-  return std::visit(Overload{[](const bool* v) { return json(*v); }, [](const int* v) { return json(*v); },
-                             [](const std::uint64_t* v) { return json(*v); },
-                             [](const float* v) { return json(brief(*v)); },
-                             [](const std::string* v) { return json(*v); },
-                             [](const Vec3* v) { return json{brief(v->x), brief(v->y), brief(v->z)}; },
-                             [&](const ChoiceRef& v) { return json(p.choices.at(std::size_t(v.get()))); }},
-                    field);
+  return std::visit(
+      Overload{[](const bool* v) { return json(*v); }, [](const int* v) { return json(*v); },
+               [](const std::uint64_t* v) { return json(*v); },
+               [](const float* v) { return json(brief(*v)); }, [](const std::string* v) { return json(*v); },
+               [](const Vec3* v) {
+                 return json{brief(v->x), brief(v->y), brief(v->z)};
+               },
+               [&](const ChoiceRef& v) { return json(p.choices.at(std::size_t(v.get()))); }},
+      field);
 }
 
 void fieldFromJson(const FieldRef& field, const Parameter& p, const json& value, const std::string& where) {

@@ -18,7 +18,8 @@ BakedScene bakedScene(const Products& products) {
 
 BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project) {
   const Products products = pipeline.find(recipe, {"scene", "samples", "transfer"});
-  if (!products.state("transfer")) throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
+  if (!products.state("transfer"))
+    throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
   return bakedScene(products);
 }
 
@@ -27,7 +28,8 @@ Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lig
   const Scene scene = withMaterials(*baked.geometry->scene, recipe);
   const Transfer& transfer = baked.transfer->transfer;
   const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
-  RenderInput input{scene, *baked.samples->samples, transfer, light, shadeMethod(recipe.method.name), {}, nullptr};
+  RenderInput input{scene,  *baked.samples->samples, transfer, light, shadeMethod(recipe.method.name), {},
+                    nullptr};
   if (options.background) input.background = &lights;
   return render(input, camera, options.width, options.height, options.grid, job);
 }

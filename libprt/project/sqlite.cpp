@@ -15,8 +15,10 @@ std::string uriOf(const std::filesystem::path& file, const char* query) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
     const unsigned char byte = (unsigned char)c;
-    if (std::isalnum(byte) || c == '/' || c == '.' || c == '-' || c == '_') uri += c;
-    else uri += {'%', digits[byte >> 4], digits[byte & 15]};
+    if (std::isalnum(byte) || c == '/' || c == '.' || c == '-' || c == '_')
+      uri += c;
+    else
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
   }
   return uri + query;
 }
@@ -41,7 +43,9 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   sqlite3_busy_timeout(handle_, 200);
 }
 
-Database::~Database() { sqlite3_close_v2(handle_); }
+Database::~Database() {
+  sqlite3_close_v2(handle_);
+}
 
 void Database::execute(const char* sql) {
   if (const int code = sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr); code != SQLITE_OK) fail(code);
@@ -53,18 +57,22 @@ std::int64_t Database::integer(const char* sql) {
   return query.integer(0);
 }
 
-bool Database::inTransaction() const { return sqlite3_get_autocommit(handle_) == 0; }
+bool Database::inTransaction() const {
+  return sqlite3_get_autocommit(handle_) == 0;
+}
 
 void Database::fail(int code) const {
   const std::string where = file_.string();
   switch (code & 0xff) {
     case SQLITE_FULL:
-      throw ResourceError("the disk is full", where, "free some space and run again; what was saved is unchanged");
+      throw ResourceError("the disk is full", where,
+                          "free some space and run again; what was saved is unchanged");
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw FileError("is in use by another program", where, "wait until it has finished");
     case SQLITE_IOERR:
-      throw FileError("cannot be written or read: " + std::error_code(sqlite3_system_errno(handle_), std::generic_category()).message(),
+      throw FileError("cannot be written or read: " +
+                          std::error_code(sqlite3_system_errno(handle_), std::generic_category()).message(),
                       where, "check the disk; what was saved is unchanged");
     case SQLITE_READONLY:
     case SQLITE_PERM:
@@ -73,7 +81,8 @@ void Database::fail(int code) const {
     case SQLITE_NOMEM:
       throw ResourceError("not enough memory", where, "close other programs");
     default:
-      throw DamagedFile(std::string("is damaged: ") + sqlite3_errmsg(handle_), where, "use a backup or bake again");
+      throw DamagedFile(std::string("is damaged: ") + sqlite3_errmsg(handle_), where,
+                        "use a backup or bake again");
   }
 }
 
@@ -82,7 +91,9 @@ Statement::Statement(Database& database, const char* sql) : database_(database) 
   if (code != SQLITE_OK) database.fail(code);
 }
 
-Statement::~Statement() { sqlite3_finalize(statement_); }
+Statement::~Statement() {
+  sqlite3_finalize(statement_);
+}
 
 Statement& Statement::bind(std::int64_t value) {
   sqlite3_bind_int64(statement_, ++bound_, value);
@@ -116,7 +127,8 @@ void Statement::run() {
 namespace {
 void requireType(sqlite3_stmt* statement, int column, int type, const Database& database) {
   if (sqlite3_column_type(statement, column) != type)
-    throw DamagedFile("is damaged: a value has the wrong type", database.file().string(), "use a backup or bake again");
+    throw DamagedFile("is damaged: a value has the wrong type", database.file().string(),
+                      "use a backup or bake again");
 }
 }  // namespace
 

@@ -65,7 +65,8 @@ std::vector<Stage> makeStages() {
       {.name = "transfer",
        .makes = "direct transfer and bounces, in the form that materials need",
        .inputs = {"scene", "samples", "rays", "direct"},
-       .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold", "transfer.storage"},
+       .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold",
+                 "transfer.storage"},
        .make = makeTransfer,
        .load = TransferProduct::load},
       {.name = "floor",
@@ -128,7 +129,8 @@ ProductPtr makeSamples(StageRun& run) {
 }
 
 ProductPtr makeFrames(StageRun& run) {
-  return std::make_shared<FramesProduct>(makeTangentFrames(run.input<SceneProduct>("scene")->scene->mesh, {}, run.job()));
+  return std::make_shared<FramesProduct>(
+      makeTangentFrames(run.input<SceneProduct>("scene")->scene->mesh, {}, run.job()));
 }
 
 ProductPtr makeRays(StageRun& run) {
@@ -148,7 +150,9 @@ constexpr int kTilesBetweenRests = 16;  // however short the time between checkp
 /// alone, not on what was baked before.
 void restore(DirectBake& bake, const ProductData& saved, int rays) {
   const auto gathered = saved.arrays.find("direction_rays");
-  if (gathered == saved.arrays.end() || gathered->second.dtype != DType::i32 || gathered->second.bytes.size() != 4) return;
+  if (gathered == saved.arrays.end() || gathered->second.dtype != DType::i32 ||
+      gathered->second.bytes.size() != 4)
+    return;
   if (gathered->second.as<std::int32_t>()[0] > rays) return;
   try {
     bake.restore(saved.arrays);
@@ -204,7 +208,8 @@ ProductPtr makeTransfer(StageRun& run) {
 
 /// Reads through "transfer" everything that it asks the recipe for.
 ProductPtr makeFloor(StageRun& run) {
-  const auto scene = std::make_shared<const Scene>(withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe()));
+  const auto scene =
+      std::make_shared<const Scene>(withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe()));
   return std::make_shared<FloorProduct>(measureInterpolationFloor(
       scene, run.input<RaysProduct>("rays")->rays, *run.input<SamplesProduct>("samples")->samples,
       run.input<TransferProduct>("transfer")->transfer, transferSettings(run.recipe()), {}, run.job()));

@@ -58,8 +58,8 @@ class StageRun {
 
 struct Stage {
   std::string name;
-  std::string makes;                ///< one line for people
-  int version = 1;                  ///< raised when the same inputs give another product
+  std::string makes;                     ///< one line for people
+  int version = 1;                       ///< raised when the same inputs give another product
   std::vector<std::string> inputs = {};  ///< stages
   /// Recipe paths, or sections meaning all paths in them: "objects[].mesh", "transfer.bands".
   std::vector<std::string> reads = {};

@@ -21,7 +21,10 @@ struct Projected {
 class Projector {
  public:
   explicit Projector(const OverlayPicture& picture)
-      : camera_(picture.camera), axes_(picture.camera.axes()), width_(picture.width), height_(picture.height) {}
+      : camera_(picture.camera),
+        axes_(picture.camera.axes()),
+        width_(picture.width),
+        height_(picture.height) {}
 
   Projected operator()(const Vec3& p) const {
     const float away = distanceTo(p);
@@ -133,12 +136,14 @@ Vec3 positionOf(const TriMesh& mesh, const Fragment& f) {
 }
 
 /// False colour of one fragment, display-encoded.
-Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f, const Camera& camera) {
+Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f,
+                  const Camera& camera) {
   const UVec3& t = mesh.triangles[f.triangle];
   const Vec3 weight = weightsOf(f);
   const Vec3 n = weight.x * mesh.normals[t.x] + weight.y * mesh.normals[t.y] + weight.z * mesh.normals[t.z];
   const bool known = values[t.x] >= 0 && values[t.y] >= 0 && values[t.z] >= 0;
-  const float value = known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
+  const float value =
+      known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
   const float size = length(n);
   const float cosine = size > 0 ? dot(n, camera.towardsViewer(positionOf(mesh, f))) / size : 1.0f;
   return overlayShade(cosine) * magnitudeColor(value);

@@ -18,7 +18,7 @@ struct BenchResult {
     std::string unit;
   };
   std::string name;
-  double ratio = 0;         ///< 1 = exactly at the limit, or as fast as the rival; larger is better
+  double ratio = 0;  ///< 1 = exactly at the limit, or as fast as the rival; larger is better
   Value ours;
   std::string againstWhat;  ///< what the limit or rival is, in words
   Value against;

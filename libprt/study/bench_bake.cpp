@@ -1,5 +1,5 @@
-// The direct bake of matrices against its own rays, traced and thrown away: what the bake does besides tracing
-// (making directions, projecting visibility, rotating) may cost a fifth of the rate.
+// The direct bake of matrices against its own rays, traced and thrown away: what the bake does besides
+// tracing (making directions, projecting visibility, rotating) may cost a fifth of the rate.
 
 #include "libprt/core/parallel.h"
 #include "libprt/study/bench_list.h"
@@ -22,8 +22,8 @@ DirectSettings bakeSettings() {
   return settings;
 }
 
-/// The bake's rays, in the bake's order, from the same origins; returns how many were blocked, so that nothing
-/// is optimised away.
+/// The bake's rays, in the bake's order, from the same origins; returns how many were blocked, so that
+/// nothing is optimised away.
 std::size_t traceOnly(const BenchScene& bench, Job& job) {
   const std::uint64_t seed = bakeSettings().seed;
   std::atomic<std::size_t> blockedCount{0};
@@ -35,7 +35,8 @@ std::size_t traceOnly(const BenchScene& bench, Job& job) {
       std::vector<std::uint8_t> blocked(std::size_t(table.size()));
       std::size_t count = 0;
       for (std::size_t s = first; s < last; ++s) {
-        directions.turn(table, bakeScramble(*bench.samples, s, seed), bakeFrame(*bench.samples, s, RaySpread::Uniform, seed));
+        directions.turn(table, bakeScramble(*bench.samples, s, seed),
+                        bakeFrame(*bench.samples, s, RaySpread::Uniform, seed));
         bench.rays->occludedFrom(bench.samples->origin[s], directions.x, directions.y, directions.z, blocked);
         for (const std::uint8_t b : blocked) count += b;
       }
@@ -73,8 +74,11 @@ BenchResult benchBake(Job& job, int repetitions) {
   result.ours = {rays / median(ours) * 1e-6, "Mray/s"};
   result.againstWhat = "0.8 of the rate of the same rays traced and thrown away";
   result.against = {kLimit * rays / median(bare) * 1e-6, "Mray/s"};
-  result.details = {{"vertices", double(bench.samples->size())}, {"rays_per_vertex", kRays}, {"seconds", median(ours)},
-                    {"trace_only_seconds", median(bare)}, {"blocked_share", double(blocked) / rays}};
+  result.details = {{"vertices", double(bench.samples->size())},
+                    {"rays_per_vertex", kRays},
+                    {"seconds", median(ours)},
+                    {"trace_only_seconds", median(bare)},
+                    {"blocked_share", double(blocked) / rays}};
   return result;
 }
 

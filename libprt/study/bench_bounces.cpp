@@ -1,4 +1,5 @@
-// Three diffuse bounces against the direct diffuse bake that they start from: they may cost at most as much again.
+// Three diffuse bounces against the direct diffuse bake that they start from: they may cost at most as much
+// again.
 
 #include "libprt/study/bench_list.h"
 #include "libprt/transport/transfer_bake.h"
@@ -37,7 +38,9 @@ BenchResult benchBounces(Job& job, int repetitions) {
   result.ours = {median(all) - median(direct), "s"};
   result.againstWhat = "the direct diffuse bake itself";
   result.against = {median(direct), "s"};
-  result.details = {{"vertices", double(bench.samples->size())}, {"rays_per_vertex", kRays}, {"bounces", kBounces},
+  result.details = {{"vertices", double(bench.samples->size())},
+                    {"rays_per_vertex", kRays},
+                    {"bounces", kBounces},
                     {"seconds_with_bounces", median(all)}};
   return result;
 }

@@ -1,5 +1,6 @@
-// Dense 25 x 25 transfer matrices, as they are stored, times an RGB light, against just reading the same memory with
-// the same threads: applying light is bound by memory, and may take 1.3 times as long as reading it.
+// Dense 25 x 25 transfer matrices, as they are stored, times an RGB light, against just reading the same
+// memory with the same threads: applying light is bound by memory, and may take 1.3 times as long as reading
+// it.
 
 #include "libprt/core/parallel.h"
 #include "libprt/core/sampling.h"
@@ -53,7 +54,8 @@ std::uint64_t readAll(std::span<const std::byte> bytes) {
 BenchResult benchTransfer(Job& job, int repetitions) {
   const Transfer transfer = makeMatrices();
   ShRgb light(kBands);
-  for (std::size_t k = 0; k < light.c.size(); ++k) light.c[k] = Rgb(hashUniform(2, k), hashUniform(3, k), hashUniform(4, k));
+  for (std::size_t k = 0; k < light.c.size(); ++k)
+    light.c[k] = Rgb(hashUniform(2, k), hashUniform(3, k), hashUniform(4, k));
   std::vector<Rgb> out(kVertices * std::size_t(transfer.functions()));
   std::vector<double> ours, reading, ratios;
   std::uint64_t kept = 0;
@@ -71,8 +73,10 @@ BenchResult benchTransfer(Job& job, int repetitions) {
   result.ours = {median(ours) * 1e3, "ms"};
   result.againstWhat = "1.3 times just reading the stored matrices";
   result.against = {median(reading) * kLimit * 1e3, "ms"};
-  result.details = {{"vertices", double(kVertices)}, {"megabytes", double(transfer.values.bytes.size()) * 1e-6},
-                    {"read_ms", median(reading) * 1e3}, {"read_sum_parity", double(kept & 1)}};
+  result.details = {{"vertices", double(kVertices)},
+                    {"megabytes", double(transfer.values.bytes.size()) * 1e-6},
+                    {"read_ms", median(reading) * 1e3},
+                    {"read_sum_parity", double(kept & 1)}};
   return result;
 }
 

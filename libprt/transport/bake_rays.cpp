@@ -18,7 +18,8 @@ constexpr int kFirstLevel = 64;
 
 std::uint64_t originKey(const SampleSet& samples, std::size_t sample, std::uint64_t seed) {
   const Vec3 p = samples.origin[sample] + 0.0f;  // -0 and 0 are one place
-  const std::uint64_t xy = std::uint64_t(std::bit_cast<std::uint32_t>(p.x)) << 32 | std::bit_cast<std::uint32_t>(p.y);
+  const std::uint64_t xy =
+      std::uint64_t(std::bit_cast<std::uint32_t>(p.x)) << 32 | std::bit_cast<std::uint32_t>(p.y);
   return hashBits(seed, xy, std::bit_cast<std::uint32_t>(p.z));
 }
 
@@ -35,7 +36,8 @@ std::vector<std::uint16_t> tracingOrder(std::span<const Vec3> directions, std::s
   }
   std::vector<std::uint16_t> order(directions.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) { return key[a] < key[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint16_t a, std::uint16_t b) { return key[a] < key[b]; });
   return order;
 }
 
@@ -44,7 +46,8 @@ using Float8 = float __attribute__((vector_size(32), aligned(4), may_alias));
 
 /// `Rows` rows of weights times one block of columns.
 template <int Rows>
-void accumulateBlock(const float* columns, int rays, const float* const* weights, float* const* sums, int column) {
+void accumulateBlock(const float* columns, int rays, const float* const* weights, float* const* sums,
+                     int column) {
   constexpr int kVectors = kColumns / 8;
   Float8 sum[Rows][kVectors];
   for (int s = 0; s < Rows; ++s)
@@ -70,10 +73,12 @@ std::vector<int> bakeLevels(int rays) {
 }
 
 Frame bakeFrame(const SampleSet& samples, std::size_t sample, RaySpread spread, std::uint64_t seed) {
-  const Frame frame = frameFromNormal(spread == RaySpread::Uniform ? samples.geometricNormal[sample] : samples.shadingNormal[sample]);
+  const Frame frame = frameFromNormal(spread == RaySpread::Uniform ? samples.geometricNormal[sample]
+                                                                   : samples.shadingNormal[sample]);
   float sine, cosine;
   sinCosTurns(unitFloat(std::uint32_t(originKey(samples, sample, seed))), sine, cosine);
-  return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent, frame.normal};
+  return {cosine * frame.tangent + sine * frame.bitangent, cosine * frame.bitangent - sine * frame.tangent,
+          frame.normal};
 }
 
 int bakeScramble(const SampleSet& samples, std::size_t sample, std::uint64_t seed) {
@@ -98,7 +103,8 @@ void RayTable::fill(RaySpread spread, int bands, int scramble, std::uint64_t see
   sobolFill(std::uint32_t(begin_), 1, seed, v);
   std::vector<Vec3> d(count);
   for (std::size_t r = 0; r < count; ++r) {
-    d[r] = spread == RaySpread::Uniform ? sampleUniformHemisphere({u[r], v[r]}) : sampleCosineHemisphere({u[r], v[r]});
+    d[r] = spread == RaySpread::Uniform ? sampleUniformHemisphere({u[r], v[r]})
+                                        : sampleCosineHemisphere({u[r], v[r]});
     height[r] = spread == RaySpread::Uniform ? d[r].z : d[r].z * d[r].z;  // uniform in [0, 1)
     shEvaluate(bands, d[r], std::span(values).subspan(r * shCount(bands), shCount(bands)));
   }
@@ -121,7 +127,8 @@ void accumulateProducts(const float* columns, int rays, int blocks, int rows, co
   // A block of columns stays in the cache while all rows pass over it.
   for (int b = 0; b < blocks; ++b, columns += std::size_t(rays) * kColumns) {
     int row = 0;
-    for (; row + 4 <= rows; row += 4) accumulateBlock<4>(columns, rays, weights + row, sums + row, b * kColumns);
+    for (; row + 4 <= rows; row += 4)
+      accumulateBlock<4>(columns, rays, weights + row, sums + row, b * kColumns);
     if (rows - row == 3) accumulateBlock<3>(columns, rays, weights + row, sums + row, b * kColumns);
     if (rows - row == 2) accumulateBlock<2>(columns, rays, weights + row, sums + row, b * kColumns);
     if (rows - row == 1) accumulateBlock<1>(columns, rays, weights + row, sums + row, b * kColumns);

@@ -80,7 +80,8 @@ constexpr int sumStride(int functions) {
   return (functions + RayTable::kColumns - 1) / RayTable::kColumns * RayTable::kColumns;
 }
 
-/// sums[i][c] += sum over rays r, in order, of weights[i][r] * columns[r][c], for all rows i. `columns` is laid out as RayTable::functions with `blocks` blocks; `sums[i]` takes blocks * kColumns numbers.
+/// sums[i][c] += sum over rays r, in order, of weights[i][r] * columns[r][c], for all rows i. `columns` is
+/// laid out as RayTable::functions with `blocks` blocks; `sums[i]` takes blocks * kColumns numbers.
 void accumulateProducts(const float* columns, int rays, int blocks, int rows, const float* const* weights,
                         float* const* sums);
 

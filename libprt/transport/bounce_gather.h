@@ -40,9 +40,9 @@ class BounceGather {
   /// sample as irradiance.
   SampleRows irradiance(const SampleRows& leaving, Job& job);
 
-  /// The same with its directions: use(sample, matrix) gets at matrix[k * leaving.width + j] the k-th coefficient
-  /// (object frame, bands^2 of them) of the incident radiance that the j-th leaving one makes. Called once per
-  /// sample, by several threads at once. Needs uniform rays.
+  /// The same with its directions: use(sample, matrix) gets at matrix[k * leaving.width + j] the k-th
+  /// coefficient (object frame, bands^2 of them) of the incident radiance that the j-th leaving one makes.
+  /// Called once per sample, by several threads at once. Needs uniform rays.
   using UseMatrix = std::function<void(std::size_t sample, const float* matrix)>;
   void directional(int bands, const SampleRows& leaving, Job& job, const UseMatrix& use);
 
@@ -52,12 +52,15 @@ class BounceGather {
  private:
   /// Calls body(tile, hits of its rays in [begin, end), table) for the tiles [firstTile, lastTile); a table
   /// with functions of `bands` bands, or with just directions and only where rays are traced, when 0.
-  using TileBody = std::function<void(std::size_t tile, std::span<const std::shared_ptr<const HitBlock>> blocks,
-                                      const RayTable* table)>;
-  void overChunk(int begin, int end, std::size_t firstTile, std::size_t lastTile, int bands, Job& job, const TileBody& body);
+  using TileBody = std::function<void(
+      std::size_t tile, std::span<const std::shared_ptr<const HitBlock>> blocks, const RayTable* table)>;
+  void overChunk(int begin, int end, std::size_t firstTile, std::size_t lastTile, int bands, Job& job,
+                 const TileBody& body);
   std::shared_ptr<const HitBlock> trace(const RayTable& table, std::size_t tile, Job& job) const;
   std::size_t tileCount() const { return (samples_.size() + kBakeTile - 1) / kBakeTile; }
-  std::size_t tileSize(std::size_t tile) const { return std::min(samples_.size() - tile * kBakeTile, kBakeTile); }
+  std::size_t tileSize(std::size_t tile) const {
+    return std::min(samples_.size() - tile * kBakeTile, kBakeTile);
+  }
 
   const Scene& scene_;
   const RayScene& rays_;

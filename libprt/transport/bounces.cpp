@@ -9,7 +9,9 @@
 namespace prt {
 namespace {
 
-bool grey(const Rgb& c) { return c.x == c.y && c.y == c.z; }
+bool grey(const Rgb& c) {
+  return c.x == c.y && c.y == c.z;
+}
 
 /// Object of each surface sample: that of its vertex.
 std::vector<std::uint32_t> objectsOf(const Scene& scene, const SampleSet& surface) {
@@ -33,7 +35,8 @@ SampleRows directRows(const DirectTransfer& direct, int channels) {
   const std::span<const float> e = direct.diffuse.as<float>();
   for (std::size_t s = 0; s < direct.samples(); ++s)
     for (std::size_t k = 0; k < functions; ++k)
-      for (std::size_t c = 0; c < std::size_t(channels); ++c) rows.row(s)[k * std::size_t(channels) + c] = e[s * functions + k];
+      for (std::size_t c = 0; c < std::size_t(channels); ++c)
+        rows.row(s)[k * std::size_t(channels) + c] = e[s * functions + k];
   return rows;
 }
 
@@ -107,14 +110,16 @@ struct Chain {
 
 BounceColours::BounceColours(std::span<const Material> materials) {
   const bool allGrey = std::ranges::all_of(materials, [](const Material& m) { return grey(m.albedo); });
-  const bool allEqual = std::ranges::all_of(materials, [&](const Material& m) { return m.albedo == materials.front().albedo; });
+  const bool allEqual =
+      std::ranges::all_of(materials, [&](const Material& m) { return m.albedo == materials.front().albedo; });
   channels = allGrey ? 1 : 3;
   factored = allEqual;
   common = materials.front().albedo;
   chainChannels = allGrey || allEqual ? 1 : 3;
 }
 
-SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const SampleRows& irradiance, int channels) {
+SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const SampleRows& irradiance,
+                           int channels) {
   SampleRows leaving = irradiance;
   const std::vector<std::uint32_t> object = objectsOf(scene, surface);
   const auto c = std::size_t(channels);

@@ -14,17 +14,18 @@ namespace prt {
 /// How colours go through the chain. A chain of one channel serves every scene whose albedos are all grey, or
 /// all equal: then bounce k is the albedo-free chain times albedo^k.
 struct BounceColours {
-  int chainChannels = 1;   ///< channels that are gathered
-  int channels = 1;        ///< channels of the result
-  bool factored = false;   ///< albedo^k is applied afterwards
-  Rgb common{0};           ///< that albedo
+  int chainChannels = 1;  ///< channels that are gathered
+  int channels = 1;       ///< channels of the result
+  bool factored = false;  ///< albedo^k is applied afterwards
+  Rgb common{0};          ///< that albedo
 
   explicit BounceColours(std::span<const Material> materials);
 };
 
-/// Light leaving the surface: albedo / pi times irradiance, for every sample of the surface set. `channels` of
-/// `irradiance`'s rows vary fastest.
-SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const SampleRows& irradiance, int channels);
+/// Light leaving the surface: albedo / pi times irradiance, for every sample of the surface set. `channels`
+/// of `irradiance`'s rows vary fastest.
+SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const SampleRows& irradiance,
+                           int channels);
 
 /// Irradiance vectors of the surface samples, rows of n^2 * channels numbers.
 struct BounceResult {

@@ -31,8 +31,8 @@ struct TileSums {
 
   /// Adds the samples at `places` of the tile, all of one direction set: visible[i] and weighted[i] are what
   /// the i-th sees, plain and times the cosine.
-  void add(const RayTable& table, int scramble, std::span<const std::size_t> places, const std::vector<float>& visible,
-           const std::vector<float>& weighted) {
+  void add(const RayTable& table, int scramble, std::span<const std::size_t> places,
+           const std::vector<float>& visible, const std::vector<float>& weighted) {
     addTo(open, all.stride, table, scramble, places, visible);
     if (all.settings.visibility) addTo(cosine, all.cosineStride, table, scramble, places, weighted);
   }
@@ -46,12 +46,14 @@ struct TileSums {
       from.push_back(&weights[i * std::size_t(table.size())]);
       to.push_back(&sums[places[i] * std::size_t(stride)]);
     }
-    accumulateProducts(table.functions(scramble), table.size(), stride / RayTable::kColumns, int(places.size()), from.data(), to.data());
+    accumulateProducts(table.functions(scramble), table.size(), stride / RayTable::kColumns,
+                       int(places.size()), from.data(), to.data());
   }
 };
 
 template <class T>
-const Array& fitting(const std::map<std::string, Array>& arrays, const std::string& name, std::vector<std::int64_t> shape) {
+const Array& fitting(const std::map<std::string, Array>& arrays, const std::string& name,
+                     std::vector<std::int64_t> shape) {
   const auto found = arrays.find(name);
   if (found == arrays.end() || found->second.dtype != dtypeOf<T>() || found->second.shape != shape ||
       found->second.bytes.size() != found->second.size() * sizeof(T))
@@ -70,9 +72,14 @@ std::vector<T> vectorOf(const Array& array) {
 
 DirectSums::DirectSums(std::shared_ptr<const Scene> sceneOf, std::shared_ptr<const RayScene> raysOf,
                        std::shared_ptr<const SampleSet> samplesOf, const DirectSettings& s)
-    : scene(std::move(sceneOf)), rays(std::move(raysOf)), samples(std::move(samplesOf)), settings(s),
-      spread(s.visibility ? RaySpread::Uniform : RaySpread::Cosine), bands(s.visibility ? 2 * s.bands - 1 : s.bands),
-      stride(sumStride(shCount(bands))), cosineStride(s.visibility ? sumStride(shCount(s.bands)) : 0) {
+    : scene(std::move(sceneOf)),
+      rays(std::move(raysOf)),
+      samples(std::move(samplesOf)),
+      settings(s),
+      spread(s.visibility ? RaySpread::Uniform : RaySpread::Cosine),
+      bands(s.visibility ? 2 * s.bands - 1 : s.bands),
+      stride(sumStride(shCount(bands))),
+      cosineStride(s.visibility ? sumStride(shCount(s.bands)) : 0) {
   // The sums, and the product that is made from them.
   requireMemory(count() * std::size_t(2 * (stride + cosineStride)) * sizeof(float), "direct transfer",
                 "simplify the mesh or use fewer bands");
@@ -83,8 +90,12 @@ DirectSums::DirectSums(std::shared_ptr<const Scene> sceneOf, std::shared_ptr<con
   hits = HitBlocks(tileRays.size());
 }
 
-int DirectSums::least() const { return int(*std::min_element(tileRays.begin(), tileRays.end())); }
-int DirectSums::most() const { return int(*std::max_element(tileRays.begin(), tileRays.end())); }
+int DirectSums::least() const {
+  return int(*std::min_element(tileRays.begin(), tileRays.end()));
+}
+int DirectSums::most() const {
+  return int(*std::max_element(tileRays.begin(), tileRays.end()));
+}
 
 bool DirectSums::trace(int from, int to, Job& job, const std::function<bool()>& rest) {
   const RayTable table(spread, std::max(bands, 2), from, to, settings.seed, job);
@@ -119,7 +130,8 @@ void DirectSums::traceTile(const RayTable& table, std::size_t tile, Job& job) {
 
   // Samples of one direction set go through its tables together.
   std::array<std::vector<std::size_t>, kScrambles> groups;
-  for (std::size_t i = 0; i < size; ++i) groups[std::size_t(bakeScramble(*samples, first + i, settings.seed))].push_back(i);
+  for (std::size_t i = 0; i < size; ++i)
+    groups[std::size_t(bakeScramble(*samples, first + i, settings.seed))].push_back(i);
   TileSums sums(*this, tile);
   std::vector<float> visible, weighted;
   for (int scramble = 0; scramble < kScrambles; ++scramble) {
@@ -128,14 +140,17 @@ void DirectSums::traceTile(const RayTable& table, std::size_t tile, Job& job) {
     weighted.resize(settings.visibility ? visible.size() : 0);
     for (std::size_t i = 0; i < places.size(); ++i) {
       job.checkCancelled();
-      const std::span<float> cosines = weighted.empty() ? std::span<float>() : std::span(weighted).subspan(i * rayCount, rayCount);
-      tracer.trace(first + places[i], std::span(visible).subspan(i * rayCount, rayCount), cosines, block.get(), places[i]);
+      const std::span<float> cosines =
+          weighted.empty() ? std::span<float>() : std::span(weighted).subspan(i * rayCount, rayCount);
+      tracer.trace(first + places[i], std::span(visible).subspan(i * rayCount, rayCount), cosines,
+                   block.get(), places[i]);
     }
     sums.add(table, scramble, places, visible, weighted);
   }
 
   std::copy(sums.open.begin(), sums.open.end(), open.begin() + std::ptrdiff_t(first * std::size_t(stride)));
-  std::copy(sums.cosine.begin(), sums.cosine.end(), cosine.begin() + std::ptrdiff_t(first * std::size_t(cosineStride)));
+  std::copy(sums.cosine.begin(), sums.cosine.end(),
+            cosine.begin() + std::ptrdiff_t(first * std::size_t(cosineStride)));
   tileRays[tile] = std::uint32_t(table.begin() + table.size());
   if (block) {
     block->shrink();
@@ -159,34 +174,39 @@ void DirectSums::findBuriedSamples(Job& job) {
 
 std::map<std::string, Array> DirectSums::save() const {
   const auto samplesCount = std::int64_t(count());
-  const std::array<std::uint32_t, 4> setup{std::uint32_t(settings.bands), settings.visibility, std::uint32_t(settings.seed),
-                                           std::uint32_t(settings.seed >> 32)};
+  const std::array<std::uint32_t, 4> setup{std::uint32_t(settings.bands), settings.visibility,
+                                           std::uint32_t(settings.seed), std::uint32_t(settings.seed >> 32)};
   const std::array<std::int32_t, 1> rayCount{directionRays};
-  return {{"setup", Array::from(std::span<const std::uint32_t>(setup), {4})},
-          {"open", Array::from(std::span<const float>(open), {samplesCount, stride})},
-          {"cosine", Array::from(std::span<const float>(cosine), {samplesCount, cosineStride})},
-          {"directions", Array::from(std::span<const float>(directions), {kScrambles, stride})},
-          {"direction_rays", Array::from(std::span<const std::int32_t>(rayCount), {1})},
-          {"tile_rays", Array::from(std::span<const std::uint32_t>(tileRays), {std::int64_t(tileRays.size())})},
-          {"buried", Array::from(std::span<const std::uint8_t>(buried), {std::int64_t(buried.size())})}};
+  return {
+      {"setup", Array::from(std::span<const std::uint32_t>(setup), {4})},
+      {"open", Array::from(std::span<const float>(open), {samplesCount, stride})},
+      {"cosine", Array::from(std::span<const float>(cosine), {samplesCount, cosineStride})},
+      {"directions", Array::from(std::span<const float>(directions), {kScrambles, stride})},
+      {"direction_rays", Array::from(std::span<const std::int32_t>(rayCount), {1})},
+      {"tile_rays", Array::from(std::span<const std::uint32_t>(tileRays), {std::int64_t(tileRays.size())})},
+      {"buried", Array::from(std::span<const std::uint8_t>(buried), {std::int64_t(buried.size())})}};
 }
 
 void DirectSums::load(const std::map<std::string, Array>& arrays) {
   const auto samplesCount = std::int64_t(count());
   const auto setup = vectorOf<std::uint32_t>(fitting<std::uint32_t>(arrays, "setup", {4}));
   const auto rayCount = vectorOf<std::int32_t>(fitting<std::int32_t>(arrays, "direction_rays", {1}));
-  auto newTileRays = vectorOf<std::uint32_t>(fitting<std::uint32_t>(arrays, "tile_rays", {std::int64_t(tileRays.size())}));
+  auto newTileRays =
+      vectorOf<std::uint32_t>(fitting<std::uint32_t>(arrays, "tile_rays", {std::int64_t(tileRays.size())}));
   const auto found = arrays.find("buried");
   const bool known = found != arrays.end() && found->second.size() > 0;
-  auto newBuried = vectorOf<std::uint8_t>(fitting<std::uint8_t>(arrays, "buried", {known ? samplesCount : 0}));
+  auto newBuried =
+      vectorOf<std::uint8_t>(fitting<std::uint8_t>(arrays, "buried", {known ? samplesCount : 0}));
   auto newOpen = vectorOf<float>(fitting<float>(arrays, "open", {samplesCount, stride}));
   auto newCosine = vectorOf<float>(fitting<float>(arrays, "cosine", {samplesCount, cosineStride}));
   auto newDirections = vectorOf<float>(fitting<float>(arrays, "directions", {kScrambles, stride}));
   const auto most = *std::max_element(newTileRays.begin(), newTileRays.end());
-  const bool fits = setup[0] == std::uint32_t(settings.bands) && setup[1] == std::uint32_t(settings.visibility) &&
-                    (std::uint64_t(setup[3]) << 32 | setup[2]) == settings.seed && most <= std::uint32_t(kMaxRays) &&
-                    rayCount[0] >= int(most) && rayCount[0] <= kMaxRays;
-  if (!fits) throw FileError("belongs to a bake with other settings", "checkpoint", "bake again from the start");
+  const bool fits = setup[0] == std::uint32_t(settings.bands) &&
+                    setup[1] == std::uint32_t(settings.visibility) &&
+                    (std::uint64_t(setup[3]) << 32 | setup[2]) == settings.seed &&
+                    most <= std::uint32_t(kMaxRays) && rayCount[0] >= int(most) && rayCount[0] <= kMaxRays;
+  if (!fits)
+    throw FileError("belongs to a bake with other settings", "checkpoint", "bake again from the start");
   open = std::move(newOpen), cosine = std::move(newCosine), directions = std::move(newDirections);
   directionRays = rayCount[0], tileRays = std::move(newTileRays), buried = std::move(newBuried);
   hits = HitBlocks(tileRays.size());

@@ -18,11 +18,13 @@ constexpr int kMaxBands = 10;
 
 void check(const DirectSettings& settings, std::size_t samples) {
   if (settings.bands < 1 || settings.bands > kMaxBands)
-    throw ValueError("cannot bake " + std::to_string(settings.bands) + " bands", "transfer.bands", "use 1 to 10");
+    throw ValueError("cannot bake " + std::to_string(settings.bands) + " bands", "transfer.bands",
+                     "use 1 to 10");
   if (settings.rays < 1 || settings.rays > kMaxRays)
     throw ValueError("cannot trace " + std::to_string(settings.rays) + " rays per sample", "transfer.rays",
                      "use 1 to " + std::to_string(kMaxRays));
-  if (samples == 0) throw GeometryError("there is no place to bake transfer at", "samples", "give a mesh with vertices");
+  if (samples == 0)
+    throw GeometryError("there is no place to bake transfer at", "samples", "give a mesh with vertices");
 }
 
 /// Coefficients of the upper hemisphere about +z, or of the clamped cosine.
@@ -52,7 +54,8 @@ void rotate(const ShRotation& rotation, int bands, const double* from, float* to
 /// The estimates of one sample, from sums to coefficients in the object frame.
 class Estimator {
  public:
-  Estimator(const DirectSums& sums, int rays) : sums_(sums), rays_(rays), open_(hemisphere(sums.bands, sums.spread)) {}
+  Estimator(const DirectSums& sums, int rays)
+      : sums_(sums), rays_(rays), open_(hemisphere(sums.bands, sums.spread)) {}
 
   /// `main` gets the coefficients that `open` sums to, `diffuse` those of `cosine` (null without).
   void run(std::size_t sample, float* main, float* diffuse) const {
@@ -63,7 +66,8 @@ class Estimator {
     rotate(toObject, sums_.bands, local.data(), main);
     if (!diffuse) return;
     const float* cosine = &sums_.cosine[sample * std::size_t(sums_.cosineStride)];
-    for (int k = 0; k < shCount(sums_.settings.bands); ++k) local[std::size_t(k)] = 2 * kPi / rays_ * cosine[k];
+    for (int k = 0; k < shCount(sums_.settings.bands); ++k)
+      local[std::size_t(k)] = 2 * kPi / rays_ * cosine[k];
     rotate(toObject, sums_.settings.bands, local.data(), diffuse);
   }
 
@@ -77,7 +81,8 @@ class Estimator {
     const float* all = &sums_.directions[std::size_t(scramble * sums_.stride)];
     const double weight = (sums_.spread == RaySpread::Cosine ? kPi : 2 * kPi) / rays_;
     const double share = open[0] * kRoot4Pi / rays_;
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = weight * (open[k] - share * all[k]) + share * open_[k];
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = weight * (open[k] - share * all[k]) + share * open_[k];
   }
 
   const DirectSums& sums_;
@@ -112,15 +117,20 @@ DirectBake::DirectBake(std::shared_ptr<const Scene> scene, std::shared_ptr<const
 
 DirectBake::~DirectBake() = default;
 
-int DirectBake::level() const { return impl_->levelsDone(); }
-int DirectBake::levels() const { return int(impl_->ends.size()); }
+int DirectBake::level() const {
+  return impl_->levelsDone();
+}
+int DirectBake::levels() const {
+  return int(impl_->ends.size());
+}
 
 void DirectBake::advance(Job& job, const std::function<bool()>& rest) {
   Impl& b = *impl_;
   if (done()) return;
   const int target = b.ends[std::size_t(level())];
   double done = 0;
-  for (std::size_t t = 0; t < b.tileRays.size(); ++t) done += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], b.ends.back());
+  for (std::size_t t = 0; t < b.tileRays.size(); ++t)
+    done += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], b.ends.back());
   job.begin(b.settings.phase, double(b.count()) * b.ends.back(), "rays", done);
   while (b.least() < target)
     if (!b.trace(b.least(), b.nextStop(b.least(), target), job, rest)) return;
@@ -158,7 +168,9 @@ DirectTransfer DirectBake::product(Job& job) const {
   return product;
 }
 
-std::map<std::string, Array> DirectBake::checkpoint() const { return impl_->save(); }
+std::map<std::string, Array> DirectBake::checkpoint() const {
+  return impl_->save();
+}
 
 void DirectBake::restore(const std::map<std::string, Array>& checkpoint) {
   impl_->load(checkpoint);

@@ -19,13 +19,20 @@ std::size_t HitBlocks::bytes() const {
   return sum;
 }
 
-SampleTracer::SampleTracer(const Scene& scene, const RayScene& rays, const SampleSet& samples, RaySpread spread,
-                           std::uint64_t seed, const RayTable& table)
-    : scene_(scene), rays_(rays), samples_(samples), spread_(spread), seed_(seed), table_(table),
-      blocked_(std::size_t(table.size())), cosine_(blocked_.size()), place_(blocked_.size()) {}
+SampleTracer::SampleTracer(const Scene& scene, const RayScene& rays, const SampleSet& samples,
+                           RaySpread spread, std::uint64_t seed, const RayTable& table)
+    : scene_(scene),
+      rays_(rays),
+      samples_(samples),
+      spread_(spread),
+      seed_(seed),
+      table_(table),
+      blocked_(std::size_t(table.size())),
+      cosine_(blocked_.size()),
+      place_(blocked_.size()) {}
 
-void SampleTracer::trace(std::size_t sample, std::span<float> visible, std::span<float> cosine, HitBlock* block,
-                         std::size_t place) {
+void SampleTracer::trace(std::size_t sample, std::span<float> visible, std::span<float> cosine,
+                         HitBlock* block, std::size_t place) {
   const int scramble = bakeScramble(samples_, sample, seed_);
   directions_.turn(table_, scramble, bakeFrame(samples_, sample, spread_, seed_));
   findBlocked(samples_.origin[sample], block != nullptr);
@@ -60,7 +67,8 @@ void SampleTracer::keepHits(HitBlock& block, std::size_t place) {
   block.samples[place].begin = std::uint32_t(block.triangle.size());
   for (std::size_t r = 0; r < place_.size(); ++r) {
     const Hit& hit = hits_[place_[r]];
-    if (!hit.valid() || (hit.back && !scene_.materialOf(hit.triangle).twoSided)) continue;  // a back only blocks
+    if (!hit.valid() || (hit.back && !scene_.materialOf(hit.triangle).twoSided))
+      continue;  // a back only blocks
     if (spread_ == RaySpread::Uniform) block.cosine.push_back(cosine_[place_[r]]);
     block.triangle.push_back(hit.triangle | (hit.back ? kBackHit : 0));
     block.barycentric.push_back(packBarycentric(hit.barycentric));

@@ -17,7 +17,8 @@ struct HitBlock {
   struct Range {
     std::uint32_t begin = 0, end = 0;
   };
-  HitBlock(int begin, int end, std::size_t sampleCount) : beginRay(begin), endRay(end), samples(sampleCount) {}
+  HitBlock(int begin, int end, std::size_t sampleCount)
+      : beginRay(begin), endRay(end), samples(sampleCount) {}
 
   int beginRay, endRay;
   std::vector<Range> samples;              ///< [tile samples] each sample's hits
@@ -30,7 +31,9 @@ struct HitBlock {
   void shrink() {
     triangle.shrink_to_fit(), barycentric.shrink_to_fit(), ray.shrink_to_fit(), cosine.shrink_to_fit();
   }
-  std::size_t bytes() const { return samples.size() * sizeof(Range) + triangle.size() * (cosine.empty() ? 10 : 14); }
+  std::size_t bytes() const {
+    return samples.size() * sizeof(Range) + triangle.size() * (cosine.empty() ? 10 : 14);
+  }
 };
 
 inline constexpr std::uint32_t kBackHit = 0x80000000u;
@@ -47,7 +50,9 @@ class HitBlocks {
   }
   const std::vector<std::shared_ptr<const HitBlock>>& of(std::size_t tile) const { return tiles_[tile]; }
   /// Keeps a block that goes on where the tile's last one ended. Different tiles may be added to at once.
-  void add(std::size_t tile, std::shared_ptr<const HitBlock> block) { tiles_[tile].push_back(std::move(block)); }
+  void add(std::size_t tile, std::shared_ptr<const HitBlock> block) {
+    tiles_[tile].push_back(std::move(block));
+  }
   std::size_t bytes() const;
 
  private:
@@ -80,8 +85,8 @@ class SampleTracer {
   // Of the sample's rays, in tracing order:
   WorldRays directions_;
   std::vector<std::uint8_t> blocked_;
-  std::vector<float> cosine_;  // to the shading normal, clamped
-  std::vector<Hit> hits_;      // invalid where below the horizon
+  std::vector<float> cosine_;             // to the shading normal, clamped
+  std::vector<Hit> hits_;                 // invalid where below the horizon
   std::span<const std::uint16_t> order_;  // ray number at each place
   std::vector<std::uint16_t> place_;      // place of each ray
 };

@@ -44,7 +44,8 @@ struct Corners {
     for (const std::uint32_t t : points.triangle) {
       std::array<std::uint32_t, 3> three{};
       for (int k = 0; k < 3; ++k)
-        three[std::size_t(k)] = std::uint32_t(std::ranges::lower_bound(vertices, mesh.triangles[t][k]) - vertices.begin());
+        three[std::size_t(k)] =
+            std::uint32_t(std::ranges::lower_bound(vertices, mesh.triangles[t][k]) - vertices.begin());
       place.push_back(three);
     }
   }
@@ -57,16 +58,22 @@ Rgb interpolate(const std::vector<Rgb>& values, const std::array<std::uint32_t, 
 /// Bakes sets of points independently of each other and of the product.
 class PointBaker {
  public:
-  PointBaker(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays, const Transfer& vertices,
-             const TransferSettings& settings, const FloorOptions& options, Job& job)
-      : scene_(std::move(scene)), rays_(std::move(rays)), vertices_(vertices), settings_(settings), job_(job) {
+  PointBaker(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,
+             const Transfer& vertices, const TransferSettings& settings, const FloorOptions& options,
+             Job& job)
+      : scene_(std::move(scene)),
+        rays_(std::move(rays)),
+        vertices_(vertices),
+        settings_(settings),
+        job_(job) {
     settings_.rays = std::min(settings.rays, options.maxRays);
     settings_.bounces = vertices.bounces;
     settings_.storage = DType::f32;
   }
 
   /// `half` 0 and 1 are independent estimates of the same. `buried`, if given, gets the marks.
-  Transfer bake(const SampleSet& points, std::uint64_t half, std::uint64_t seed, std::vector<std::uint8_t>* buried = nullptr) {
+  Transfer bake(const SampleSet& points, std::uint64_t half, std::uint64_t seed,
+                std::vector<std::uint8_t>* buried = nullptr) {
     TransferSettings settings = settings_;
     settings.seed = hashBits(seed, half, 0x666c6f6fu);
     DirectSettings direct = directSettings(settings, TransferForm::Diffuse);
@@ -74,8 +81,10 @@ class PointBaker {
     DirectBake bake(scene_, rays_, std::make_shared<SampleSet>(points), direct);
     while (!bake.done()) bake.advance(job_);
     const DirectTransfer product = bake.product(job_);
-    if (buried) *buried = {product.buried.as<std::uint8_t>().begin(), product.buried.as<std::uint8_t>().end()};
-    return finishTransfer(*scene_, *rays_, points, product, settings, TransferForm::Diffuse, job_, &vertices_);
+    if (buried)
+      *buried = {product.buried.as<std::uint8_t>().begin(), product.buried.as<std::uint8_t>().end()};
+    return finishTransfer(*scene_, *rays_, points, product, settings, TransferForm::Diffuse, job_,
+                          &vertices_);
   }
 
  private:
@@ -102,22 +111,25 @@ struct Squares {
     floor.sampling = std::sqrt(std::max(0.0, (product - interpolation) / truth));
     const double variance = std::max(0.0, interpolationSquared / n - std::pow(interpolation / n, 2)) / n;
     const double errorOfSquare = std::sqrt(variance) / (truth / n);
-    floor.interpolationError = floor.interpolation > 0 ? errorOfSquare / (2 * floor.interpolation) : std::sqrt(errorOfSquare);
+    floor.interpolationError =
+        floor.interpolation > 0 ? errorOfSquare / (2 * floor.interpolation) : std::sqrt(errorOfSquare);
     return floor;
   }
 };
 
 }  // namespace
 
-InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,
-                                             const SampleSet& vertices, const Transfer& transfer,
-                                             const TransferSettings& settings, std::span<const ShRgb> lights, Job& job,
+InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
+                                             std::shared_ptr<const RayScene> rays, const SampleSet& vertices,
+                                             const Transfer& transfer, const TransferSettings& settings,
+                                             std::span<const ShRgb> lights, Job& job,
                                              const FloorOptions& options) {
   if (options.points < 16 || options.points > 100000 || options.maxRays < 1)
-    throw ValueError("cannot measure the floor with " + std::to_string(options.points) + " points", "interpolation floor",
-                     "use 16 to 100000 points and at least one ray");
+    throw ValueError("cannot measure the floor with " + std::to_string(options.points) + " points",
+                     "interpolation floor", "use 16 to 100000 points and at least one ray");
   if (transfer.samples != vertices.size() || vertices.vertices != scene->mesh.vertexCount())
-    throw ValueError("the transfer is not of these vertices", "interpolation floor", "bake samplesAtVertices() first");
+    throw ValueError("the transfer is not of these vertices", "interpolation floor",
+                     "bake samplesAtVertices() first");
   if (transfer.form == TransferForm::None) return {};
   const std::vector<ShRgb> prior = lights.empty() ? priorLights(transfer.bands) : std::vector<ShRgb>{};
   if (lights.empty()) lights = prior;
@@ -130,10 +142,12 @@ InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
   std::vector<std::uint8_t> buried, buriedCorner;
   const std::array<Responses, 2> truth{responses(baker.bake(points, 0, options.seed, &buried), lights),
                                        responses(baker.bake(points, 1, options.seed), lights)};
-  const std::array<Responses, 2> corner{responses(baker.bake(cornerSamples, 0, options.seed + 1, &buriedCorner), lights),
-                                        responses(baker.bake(cornerSamples, 1, options.seed + 1), lights)};
+  const std::array<Responses, 2> corner{
+      responses(baker.bake(cornerSamples, 0, options.seed + 1, &buriedCorner), lights),
+      responses(baker.bake(cornerSamples, 1, options.seed + 1), lights)};
   Responses product;
-  for (const ShRgb& light : lights) product.push_back(irradiance(transfer, light, vertices.shadingNormal, corners.vertices));
+  for (const ShRgb& light : lights)
+    product.push_back(irradiance(transfer, light, vertices.shadingNormal, corners.vertices));
 
   Squares squares;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -141,7 +155,9 @@ InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
     if (buried[i] || buriedCorner[place[0]] || buriedCorner[place[1]] || buriedCorner[place[2]]) continue;
     double truthHere = 0, interpolationHere = 0, productHere = 0;
     for (std::size_t light = 0; light < lights.size(); ++light) {
-      const auto between = [&](const std::vector<Rgb>& values) { return interpolate(values, place, points.barycentric[i]); };
+      const auto between = [&](const std::vector<Rgb>& values) {
+        return interpolate(values, place, points.barycentric[i]);
+      };
       const Rgb r0 = truth[0][light][i], r1 = truth[1][light][i];
       truthHere += dot(DVec3(r0), DVec3(r1));
       interpolationHere += dot(DVec3(between(corner[0][light]) - r0), DVec3(between(corner[1][light]) - r1));

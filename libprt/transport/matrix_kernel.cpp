@@ -34,8 +34,12 @@ inline Floats load(const std::uint16_t* p) {
 
 namespace prt {
 
-void multiplyMatrices(const std::uint16_t* halves, const MatrixProduct& product) { multiplyForChannels<8>(halves, product); }
-void multiplyMatrices(const float* floats, const MatrixProduct& product) { multiplyForChannels<8>(floats, product); }
+void multiplyMatrices(const std::uint16_t* halves, const MatrixProduct& product) {
+  multiplyForChannels<8>(halves, product);
+}
+void multiplyMatrices(const float* floats, const MatrixProduct& product) {
+  multiplyForChannels<8>(floats, product);
+}
 
 bool wideKernelRuns() {
   static const bool runs = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&

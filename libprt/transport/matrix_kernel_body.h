@@ -1,6 +1,6 @@
-// Body of the matrix kernels: included by two sources that are compiled for different machines. Everything lives in
-// an unnamed namespace and uses nothing from the standard library, so that no function compiled for the wider machine
-// can end up in the narrower one's place.
+// Body of the matrix kernels: included by two sources that are compiled for different machines. Everything
+// lives in an unnamed namespace and uses nothing from the standard library, so that no function compiled for
+// the wider machine can end up in the narrower one's place.
 
 namespace prt {
 namespace {
@@ -38,8 +38,8 @@ struct Interleave {
       }
   }
 
-  /// result[3 * i + c] = colour[c][i] for `rows` <= Width rows, in whole vectors: up to Width - 1 places beyond are
-  /// overwritten.
+  /// result[3 * i + c] = colour[c][i] for `rows` <= Width rows, in whole vectors: up to Width - 1 places
+  /// beyond are overwritten.
   void store(const Vector<Width> (&colour)[3], int rows, float* result) const {
     for (int v = 0; v * Width < rows * 3; ++v) {
       const Vector<Width> two = __builtin_shuffle(colour[0], colour[1], first[v]);
@@ -51,8 +51,8 @@ struct Interleave {
 /// Rows [row, row + Parts * Width) of one matrix times the light, for all three colours.
 /// Channels == 3: each colour has a matrix of its own.
 template <int Width, int Parts, int Channels, class T>
-inline void multiplyRows(const T* matrix, std::size_t n, std::size_t row, const float* light, const Interleave<Width>& interleave,
-                         float* result) {
+inline void multiplyRows(const T* matrix, std::size_t n, std::size_t row, const float* light,
+                         const Interleave<Width>& interleave, float* result) {
   constexpr int kPrefetch = 2048;  // bytes ahead
   Vector<Width> sum[Parts][3] = {};
   for (int channel = 0; channel < Channels; ++channel) {
@@ -78,20 +78,23 @@ inline void multiplyRows(const T* matrix, std::size_t n, std::size_t row, const 
 
 /// 32 rows at a time, then what is left of them. `result` may be overwritten up to Width - 1 places beyond.
 template <int Width, int Channels, class T>
-inline void multiplyOne(const T* matrix, const MatrixProduct& product, const Interleave<Width>& interleave, float* result) {
+inline void multiplyOne(const T* matrix, const MatrixProduct& product, const Interleave<Width>& interleave,
+                        float* result) {
   constexpr int kParts = 32 / Width;
   const std::size_t n = product.n;
   std::size_t row = 0;
   for (; n - row > 16; row = row + 32 < n ? row + 32 : n)
     multiplyRows<Width, kParts, Channels>(matrix, n, row, product.light, interleave, result);
-  for (; row < n; row += Width) multiplyRows<Width, 1, Channels>(matrix, n, row, product.light, interleave, result);
+  for (; row < n; row += Width)
+    multiplyRows<Width, 1, Channels>(matrix, n, row, product.light, interleave, result);
 }
 
 /// What one sample overwrites beyond its place the next ones fill; those too near the end have a place apart.
 template <int Width, int Channels, class T>
 inline void multiplyAll(const T* matrices, const MatrixProduct& product) {
   const Interleave<Width> interleave;
-  const std::size_t size = product.channels * product.n * product.n, width = product.n * 3, end = product.samples * width;
+  const std::size_t size = product.channels * product.n * product.n, width = product.n * 3,
+                    end = product.samples * width;
   float apart[kKernelMaxFunctions * 3 + Width];
   for (std::size_t s = 0; s < product.samples; ++s) {
     float* result = product.result + s * width;

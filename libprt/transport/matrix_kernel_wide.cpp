@@ -26,7 +26,11 @@ inline Floats load(const std::uint16_t* p) {
 
 namespace prt {
 
-void multiplyMatricesWide(const std::uint16_t* halves, const MatrixProduct& product) { multiplyForChannels<16>(halves, product); }
-void multiplyMatricesWide(const float* floats, const MatrixProduct& product) { multiplyForChannels<16>(floats, product); }
+void multiplyMatricesWide(const std::uint16_t* halves, const MatrixProduct& product) {
+  multiplyForChannels<16>(halves, product);
+}
+void multiplyMatricesWide(const float* floats, const MatrixProduct& product) {
+  multiplyForChannels<16>(floats, product);
+}
 
 }  // namespace prt

@@ -25,7 +25,8 @@ void MatrixPacker::pack(std::size_t sample, const float* matrix) {
   for (std::size_t c = 0; c < channels; ++c)
     for (std::size_t column = 0; column < n; ++column)
       for (std::size_t row = 0; row < n; ++row)
-        columns[(c * n + column) * n + row] = std::clamp(matrix[(row * n + column) * channels + c], -kLargestHalf, kLargestHalf);
+        columns[(c * n + column) * n + row] =
+            std::clamp(matrix[(row * n + column) * channels + c], -kLargestHalf, kLargestHalf);
   double square = 0, error = 0;
   for (const float x : columns) square += double(x) * x;
   const std::size_t at = sample * layout_.sampleSize();
@@ -36,7 +37,8 @@ void MatrixPacker::pack(std::size_t sample, const float* matrix) {
     toHalf(columns, half);
     std::vector<float> back(columns.size());
     fromHalf(half, back);
-    for (std::size_t i = 0; i < back.size(); ++i) error += (double(back[i]) - columns[i]) * (double(back[i]) - columns[i]);
+    for (std::size_t i = 0; i < back.size(); ++i)
+      error += (double(back[i]) - columns[i]) * (double(back[i]) - columns[i]);
   }
   squares_[sample] = square, errors_[sample] = error;
 }
@@ -46,7 +48,8 @@ void MatrixPacker::fill(std::uint32_t target, std::span<const std::uint32_t> sou
   const std::size_t size = layout_.sampleSize();
   for (std::size_t e = 0; e < size; ++e) {
     float sum = 0;
-    for (const std::uint32_t s : sources) sum += array_.dtype == DType::f32 ? floats()[s * size + e] : fromHalf(halves()[s * size + e]);
+    for (const std::uint32_t s : sources)
+      sum += array_.dtype == DType::f32 ? floats()[s * size + e] : fromHalf(halves()[s * size + e]);
     sum /= float(sources.size());
     if (array_.dtype == DType::f32) {
       floats()[target * size + e] = sum;
@@ -64,11 +67,13 @@ Array MatrixPacker::take(const BuriedFill& buried, double& storageError) {
   return std::move(array_);
 }
 
-Array packedMatrices(std::span<const float> matrices, std::size_t samples, int channels, int bands, DType storage) {
+Array packedMatrices(std::span<const float> matrices, std::size_t samples, int channels, int bands,
+                     DType storage) {
   const MatrixLayout layout{samples, std::size_t(channels), std::size_t(shCount(bands))};
   if (matrices.size() != layout.size())
-    throw ValueError("matrices hold " + std::to_string(matrices.size()) + " numbers, not " + std::to_string(layout.size()),
-                     "transfer", "give [S, n^2, n^2] or [S, n^2, n^2, 3]");
+    throw ValueError(
+        "matrices hold " + std::to_string(matrices.size()) + " numbers, not " + std::to_string(layout.size()),
+        "transfer", "give [S, n^2, n^2] or [S, n^2, n^2, 3]");
   MatrixPacker packer(layout, storage);
   for (std::size_t s = 0; s < samples; ++s) packer.pack(s, matrices.data() + s * layout.sampleSize());
   double ignored;

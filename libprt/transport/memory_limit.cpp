@@ -20,14 +20,17 @@ std::size_t availableMemory() {
   return 0;
 }
 
-std::string inMegabytes(std::size_t bytes) { return std::to_string(bytes >> 20) + " MiB"; }
+std::string inMegabytes(std::size_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB";
+}
 
 }  // namespace
 
 void requireMemory(std::size_t bytes, const std::string& what, const std::string& fix) {
   const std::size_t available = availableMemory();
   if (available != 0 && bytes > available)
-    throw ResourceError("needs " + inMegabytes(bytes) + " of memory, " + inMegabytes(available) + " are free", what, fix);
+    throw ResourceError("needs " + inMegabytes(bytes) + " of memory, " + inMegabytes(available) + " are free",
+                        what, fix);
 }
 
 }  // namespace prt

@@ -17,8 +17,12 @@ constexpr float kLargest = 1e18f;  // Embree asserts a little above this
 constexpr std::size_t kPacket = 16;
 
 /// False for NaN too.
-inline bool inRange(float x) { return std::abs(x) <= kLargest; }
-inline bool inRange(const Vec3& v) { return inRange(v.x) && inRange(v.y) && inRange(v.z); }
+inline bool inRange(float x) {
+  return std::abs(x) <= kLargest;
+}
+inline bool inRange(const Vec3& v) {
+  return inRange(v.x) && inRange(v.y) && inRange(v.z);
+}
 inline bool usable(const Ray& ray) {
   return inRange(ray.origin) && inRange(ray.direction) && ray.direction != Vec3(0) && ray.tNear >= 0 &&
          std::isfinite(ray.tNear) && !std::isnan(ray.tFar);
@@ -27,7 +31,8 @@ inline bool usable(const Ray& ray) {
 /// One device for the process: Embree keeps process-wide state behind it.
 RTCDevice device() {
   static const RTCDevice shared = rtcNewDevice(nullptr);
-  if (!shared) throw ResourceError("ray tracing device cannot be created", "Embree", "check the installation");
+  if (!shared)
+    throw ResourceError("ray tracing device cannot be created", "Embree", "check the installation");
   return shared;
 }
 
@@ -42,12 +47,23 @@ void fillBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, cons
 void checkPositions(const Scene& scene) {
   for (const Vec3& p : scene.mesh.positions)
     if (!inRange(p))
-      throw GeometryError("a vertex is not finite or beyond 1e18", "scene", "repair the mesh, or use a smaller scale");
+      throw GeometryError("a vertex is not finite or beyond 1e18", "scene",
+                          "repair the mesh, or use a smaller scale");
 }
 
 RTCRay embreeRay(const Ray& ray) {
-  return {ray.origin.x, ray.origin.y, ray.origin.z, ray.tNear, ray.direction.x, ray.direction.y, ray.direction.z,
-          0, ray.tFar, 0xffffffffu, 0, 0};
+  return {ray.origin.x,
+          ray.origin.y,
+          ray.origin.z,
+          ray.tNear,
+          ray.direction.x,
+          ray.direction.y,
+          ray.direction.z,
+          0,
+          ray.tFar,
+          0xffffffffu,
+          0,
+          0};
 }
 
 /// Packets of 16 rays from one origin. Lanes that are switched off keep a harmless direction.
@@ -55,7 +71,8 @@ struct Packet {
   alignas(64) int valid[kPacket];
 
   /// Fills lanes from directions [first, first + count); returns how many were refused.
-  int load(RTCRay16& rays, const Vec3& origin, const float* dx, const float* dy, const float* dz, std::size_t count) {
+  int load(RTCRay16& rays, const Vec3& origin, const float* dx, const float* dy, const float* dz,
+           std::size_t count) {
     int refused = 0;
     for (std::size_t k = 0; k < kPacket; ++k) {
       const bool used = k < count;
@@ -65,7 +82,8 @@ struct Packet {
       refused += used && !sound;
       valid[k] = used && sound ? -1 : 0;
       rays.org_x[k] = origin.x, rays.org_y[k] = origin.y, rays.org_z[k] = origin.z;
-      rays.dir_x[k] = sound ? d.x : 1.0f, rays.dir_y[k] = sound ? d.y : 0.0f, rays.dir_z[k] = sound ? d.z : 0.0f;
+      rays.dir_x[k] = sound ? d.x : 1.0f, rays.dir_y[k] = sound ? d.y : 0.0f,
+      rays.dir_z[k] = sound ? d.z : 0.0f;
       rays.tnear[k] = 0, rays.tfar[k] = std::numeric_limits<float>::infinity();
       rays.mask[k] = 0xffffffffu, rays.time[k] = 0, rays.id[k] = 0, rays.flags[k] = 0;
     }
@@ -132,10 +150,11 @@ struct RayScene::Impl {
     if (job && job->cancelled()) throw Cancelled();
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
     if (error == RTC_ERROR_OUT_OF_MEMORY)
-      throw ResourceError("no memory for the ray tracing scene", "Embree", "simplify the mesh or free some memory");
+      throw ResourceError("no memory for the ray tracing scene", "Embree",
+                          "simplify the mesh or free some memory");
     if (error != RTC_ERROR_NONE)
-      throw ResourceError("building the ray tracing scene failed with code " + std::to_string(int(error)), "Embree",
-                          "repair the mesh");
+      throw ResourceError("building the ray tracing scene failed with code " + std::to_string(int(error)),
+                          "Embree", "repair the mesh");
   }
 
   static bool goOn(void* job, double) { return !static_cast<Job*>(job)->cancelled(); }
@@ -171,7 +190,9 @@ Hit RayScene::intersect(const Ray& ray) const {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v},
+  return {query.hit.primID,
+          query.ray.tfar,
+          {query.hit.u, query.hit.v},
           dot(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), ray.direction) > 0};
 }
 
@@ -213,15 +234,23 @@ void RayScene::intersectFrom(const Vec3& origin, std::span<const float> dx, std:
     rtcIntersect16(packet.valid, impl_->scene, &context, &query);
     for (std::size_t k = 0; k < count; ++k)
       if (packet.valid[k] && query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
-        hits[i + k] = {query.hit.primID[k], query.ray.tfar[k], {query.hit.u[k], query.hit.v[k]},
-                       query.hit.Ng_x[k] * dx[i + k] + query.hit.Ng_y[k] * dy[i + k] + query.hit.Ng_z[k] * dz[i + k] > 0};
+        hits[i + k] = {
+            query.hit.primID[k],
+            query.ray.tfar[k],
+            {query.hit.u[k], query.hit.v[k]},
+            query.hit.Ng_x[k] * dx[i + k] + query.hit.Ng_y[k] * dy[i + k] + query.hit.Ng_z[k] * dz[i + k] >
+                0};
   }
   impl_->refuse(refused);
 }
 
-std::uint64_t RayScene::refusedRays() const { return impl_->refused.load(std::memory_order_relaxed); }
+std::uint64_t RayScene::refusedRays() const {
+  return impl_->refused.load(std::memory_order_relaxed);
+}
 
-float RayScene::size() const { return impl_->size; }
+float RayScene::size() const {
+  return impl_->size;
+}
 
 Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& barycentric, const Vec3& n) {
   constexpr float kRounding = 0x1p-24f;

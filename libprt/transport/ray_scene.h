@@ -49,8 +49,8 @@ Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& baryc
 class RayScene {
  public:
   /// Keeps no reference to `scene`. Equal scenes give equal answers on one machine, also where a ray meets an
-  /// edge or corner and must choose between triangles at equal distance. Throws GeometryError when a position is
-  /// not finite or beyond 1e18, ResourceError when the build fails.
+  /// edge or corner and must choose between triangles at equal distance. Throws GeometryError when a position
+  /// is not finite or beyond 1e18, ResourceError when the build fails.
   explicit RayScene(const Scene& scene);
   /// The same, and Cancelled when the job is cancelled meanwhile.
   RayScene(const Scene& scene, Job& job);

@@ -16,7 +16,7 @@ constexpr double kInward = 1e-3;              // pull into the vertex's own face
 constexpr double kEdgeFraction = 1e-4;        // height above the faces, against the shortest edge
 constexpr double kCoordinateFraction = 1e-6;  // ... and against the size of the coordinates: 8 ulps or more
 constexpr double kSharedSmoothing = 0.9999;   // cosine above which two shading normals are one
-constexpr double kSteepest = 0.05;            // least sine between the offset direction and a face that counts
+constexpr double kSteepest = 0.05;  // least sine between the offset direction and a face that counts
 
 /// A triangle corner, sorted by where it is.
 struct Corner {
@@ -133,9 +133,9 @@ void setFree(SampleSet& set, std::size_t sample, const Vec3& p, const Vec3& norm
 
 /// The faces around a position as one of its vertices sees them from one side.
 struct Umbrella {
-  DVec3 normal{0};             // geometric normal of the vertex
-  DVec3 centre{0};             // mean of its own faces' centres, from the vertex
-  std::vector<DVec3> faces;    // normals of those that bound where it may be moved to
+  DVec3 normal{0};           // geometric normal of the vertex
+  DVec3 centre{0};           // mean of its own faces' centres, from the vertex
+  std::vector<DVec3> faces;  // normals of those that bound where it may be moved to
   double shortestEdge = std::numeric_limits<double>::infinity();
 };
 
@@ -177,27 +177,32 @@ void setVertex(SampleSet& set, std::size_t sample, const Scene& scene, std::uint
   for (const Wedge& wedge : wedges)
     if (wedge.corner.vertex == vertex) {
       set.triangle[sample] = wedge.corner.triangle;
-      set.barycentric[sample] = {wedge.corner.index == 1 ? 1.0f : 0.0f, wedge.corner.index == 2 ? 1.0f : 0.0f};
+      set.barycentric[sample] = {wedge.corner.index == 1 ? 1.0f : 0.0f,
+                                 wedge.corner.index == 2 ? 1.0f : 0.0f};
       break;
     }
 }
 
 /// Numbers the samples on the backs of two-sided objects.
 void numberBacks(SampleSet& set, const Scene& scene) {
-  const bool any = std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.twoSided; });
+  const bool any = std::any_of(scene.materials.begin(), scene.materials.end(),
+                               [](const Material& m) { return m.twoSided; });
   if (!any) return;
   std::uint32_t next = std::uint32_t(scene.mesh.vertexCount());
-  for (std::uint32_t object : scene.vertexObject) set.back.push_back(scene.materials[object].twoSided ? next++ : kNone);
+  for (std::uint32_t object : scene.vertexObject)
+    set.back.push_back(scene.materials[object].twoSided ? next++ : kNone);
   resize(set, next);
 }
 
 /// Makes sample i a random point of a triangle, on its front.
-void setInside(SampleSet& set, std::size_t i, const TriMesh& mesh, std::size_t t, std::uint64_t seed, float sceneSize) {
+void setInside(SampleSet& set, std::size_t i, const TriMesh& mesh, std::size_t t, std::uint64_t seed,
+               float sceneSize) {
   const float root = std::sqrt(hashUniform(seed, i, 1)), turn = hashUniform(seed, i, 2);
   const Vec2 b(root * (1 - turn), root * turn);
   const UVec3& corner = mesh.triangles[t];
   const float b0 = 1 - b.x - b.y;
-  const Vec3 p = b0 * mesh.positions[corner.x] + b.x * mesh.positions[corner.y] + b.y * mesh.positions[corner.z];
+  const Vec3 p =
+      b0 * mesh.positions[corner.x] + b.x * mesh.positions[corner.y] + b.y * mesh.positions[corner.z];
   const Vec3 n = b0 * mesh.normals[corner.x] + b.x * mesh.normals[corner.y] + b.y * mesh.normals[corner.z];
   const Vec3 face = Vec3(normalize(DVec3(mesh.areaNormal(t))));
   set.geometricNormal[i] = face;
@@ -213,7 +218,8 @@ SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> i
   SampleSet some;
   for (const std::uint32_t s : indices) {
     if (s >= samples.size())
-      throw ValueError("there is no sample " + std::to_string(s), "samples", "choose below " + std::to_string(samples.size()));
+      throw ValueError("there is no sample " + std::to_string(s), "samples",
+                       "choose below " + std::to_string(samples.size()));
     some.origin.push_back(samples.origin[s]);
     some.geometricNormal.push_back(samples.geometricNormal[s]);
     some.shadingNormal.push_back(samples.shadingNormal[s]);
@@ -231,7 +237,8 @@ SampleSet samplesAtVertices(const Scene& scene) {
   numberBacks(set, scene);
   for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
     setFree(set, v, mesh.positions[v], mesh.normals[v]);
-    if (!set.back.empty() && set.back[v] != kNone) setFree(set, set.back[v], mesh.positions[v], -mesh.normals[v]);
+    if (!set.back.empty() && set.back[v] != kNone)
+      setFree(set, set.back[v], mesh.positions[v], -mesh.normals[v]);
   }
   const std::vector<Corner> corners = cornersByPosition(mesh);
   std::vector<std::uint32_t> vertices;
@@ -252,7 +259,8 @@ SampleSet samplesAtVertices(const Scene& scene) {
   return set;
 }
 
-SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint64_t seed) {
+SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles,
+                             std::uint64_t seed) {
   SampleSet set;
   resize(set, triangles.size());
   const float size = scene.mesh.bounds().diagonal();
@@ -276,7 +284,8 @@ SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t 
   resize(set, count);
   const float size = mesh.bounds().diagonal();
   for (std::size_t i = 0; i < count; ++i) {
-    const double at = std::min((double(i) + hashUniform(seed, i, 0)) / double(count) * total, std::nextafter(total, 0.0));
+    const double at =
+        std::min((double(i) + hashUniform(seed, i, 0)) / double(count) * total, std::nextafter(total, 0.0));
     const auto t = std::size_t(std::upper_bound(area.begin(), area.end(), at) - area.begin());
     setInside(set, i, mesh, t, seed, size);
   }

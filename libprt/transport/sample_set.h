@@ -16,9 +16,9 @@ namespace prt {
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 struct SampleSet {
-  std::vector<Vec3> origin;           ///< [S] where rays start: already moved off the surface
-  std::vector<Vec3> geometricNormal;  ///< [S] unit; visibility is clipped by its plane
-  std::vector<Vec3> shadingNormal;    ///< [S] unit; cosines use it
+  std::vector<Vec3> origin;             ///< [S] where rays start: already moved off the surface
+  std::vector<Vec3> geometricNormal;    ///< [S] unit; visibility is clipped by its plane
+  std::vector<Vec3> shadingNormal;      ///< [S] unit; cosines use it
   std::vector<std::uint32_t> triangle;  ///< [S] a triangle the sample lies on; kNone when it lies on none
   std::vector<Vec2> barycentric;        ///< [S] its place there: weights of corners 1 and 2
   /// The first so many samples are the vertices of the scene's mesh, in order; 0 for other sets.
@@ -29,8 +29,8 @@ struct SampleSet {
   std::size_t size() const { return origin.size(); }
 };
 
-/// Some samples of a set, in the given order; no longer counted as vertices. Throws ValueError when an index is
-/// out of range.
+/// Some samples of a set, in the given order; no longer counted as vertices. Throws ValueError when an index
+/// is out of range.
 SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> indices);
 
 /// One sample per vertex of the scene's mesh, in order; then, for each vertex of an object whose material
@@ -56,6 +56,7 @@ SampleSet samplesOnSurface(const Scene& scene, std::size_t count, std::uint64_t 
 
 /// One random point in each of the triangles, which must have area; as samplesOnSurface() else. Throws
 /// ValueError when an index is out of range.
-SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles, std::uint64_t seed);
+SampleSet samplesInTriangles(const Scene& scene, std::span<const std::uint32_t> triangles,
+                             std::uint64_t seed);
 
 }  // namespace prt

@@ -19,7 +19,8 @@ Mat3 checkedLinear(const SceneObject& object) {
                             "give 16 finite numbers");
   const Mat4& m = object.transform;
   if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
-    throw GeometryError("transform is not affine", "object '" + object.name + "'", "its last row must be 0 0 0 1");
+    throw GeometryError("transform is not affine", "object '" + object.name + "'",
+                        "its last row must be 0 0 0 1");
   const Mat3 linear(m);
   const glm::dmat3 exact(linear);
   const double size = length(exact[0]) * length(exact[1]) * length(exact[2]);
@@ -32,7 +33,8 @@ Mat3 checkedLinear(const SceneObject& object) {
 void checkMesh(const SceneObject& object) {
   const TriMesh& mesh = *object.mesh;
   if (mesh.normals.size() != mesh.vertexCount())
-    throw GeometryError("mesh needs one normal per vertex", "object '" + object.name + "'", "repair the mesh first");
+    throw GeometryError("mesh needs one normal per vertex", "object '" + object.name + "'",
+                        "repair the mesh first");
   for (const UVec3& t : mesh.triangles)
     if (t.x >= mesh.vertexCount() || t.y >= mesh.vertexCount() || t.z >= mesh.vertexCount())
       throw GeometryError("triangle names a vertex that does not exist", "object '" + object.name + "'",
@@ -84,15 +86,17 @@ Scene flattenScene(std::span<const SceneObject> objects) {
   std::size_t vertices = 0, triangles = 0;
   bool anyUv = false;
   for (const SceneObject& object : objects) {
-    if (!object.mesh) throw GeometryError("object has no mesh", "object '" + object.name + "'", "load one first");
+    if (!object.mesh)
+      throw GeometryError("object has no mesh", "object '" + object.name + "'", "load one first");
     vertices += object.mesh->vertexCount();
     triangles += object.mesh->triangleCount();
     anyUv = anyUv || !object.mesh->uv.empty();
   }
   if (triangles == 0) throw GeometryError("scene has no triangles", "scene", "add an object with a surface");
   if (vertices >= kMaxVertices || triangles >= kMaxVertices)
-    throw GeometryError("scene has " + std::to_string(vertices) + " vertices and " + std::to_string(triangles) +
-                            " triangles, too many for one bake", "scene", "simplify or split it");
+    throw GeometryError("scene has " + std::to_string(vertices) + " vertices and " +
+                            std::to_string(triangles) + " triangles, too many for one bake",
+                        "scene", "simplify or split it");
 
   for (const SceneObject& object : objects) checkMesh(object);
 

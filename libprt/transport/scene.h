@@ -21,7 +21,7 @@ struct SceneObject {
 };
 
 struct Scene {
-  TriMesh mesh;                              ///< all objects, transformed, objects in order
+  TriMesh mesh;                               ///< all objects, transformed, objects in order
   std::vector<std::uint32_t> triangleObject;  ///< [F] object of each triangle
   std::vector<std::uint32_t> vertexObject;    ///< [V] object of each vertex
   std::vector<Material> materials;            ///< [objects]

@@ -27,11 +27,11 @@ enum class TransferForm {
 struct Transfer {
   TransferForm form = TransferForm::None;
   int bands = 5;
-  int channels = 1;         ///< 3 when bounces carry colour
+  int channels = 1;  ///< 3 when bounces carry colour
   std::size_t samples = 0;
   /// f32 or f16, with n = bands. None: empty. Diffuse: [S, n^2], or [S, n^2, 3]. Visibility: [S, (2n-1)^2].
-  /// Matrix: [S, channels, n^2, n^2] by columns: element ((s * channels + c) * n^2 + light) * n^2 + transferred.
-  /// So that applying it reads memory once, in order; expandedMatrices() gives rows first.
+  /// Matrix: [S, channels, n^2, n^2] by columns: element ((s * channels + c) * n^2 + light) * n^2 +
+  /// transferred. So that applying it reads memory once, in order; expandedMatrices() gives rows first.
   Array values;
   /// Visibility and Matrix: the diffuse vectors as well, [S, n^2] or [S, n^2, 3] f32. They are estimated with
   /// the cosine inside, where T would cut it (times the light) off after n bands.
@@ -40,9 +40,9 @@ struct Transfer {
   /// vertices of the scene (and their backs): what the last bounce gathered from. Any other set of points
   /// gathers its bounces from it too.
   Array surface;
-  int raysPerSample = 0;    ///< rays gathered so far
-  int raysWanted = 0;       ///< final when raysPerSample == raysWanted
-  int bounces = 0;          ///< bounces in it; fewer than asked for when the rest would not show
+  int raysPerSample = 0;  ///< rays gathered so far
+  int raysWanted = 0;     ///< final when raysPerSample == raysWanted
+  int bounces = 0;        ///< bounces in it; fewer than asked for when the rest would not show
   /// Relative Frobenius norm of what rounding `values` to their storage type changed; 0 for f32.
   double storageError = 0;
 
@@ -68,15 +68,16 @@ void transferredRadiance(const Transfer& transfer, const ShRgb& light, std::span
 std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& light,
                                      std::span<const std::uint32_t> samples);
 
-/// Dense matrices as f32, [S, n^2, n^2] or [S, n^2, n^2, 3], row = transferred, column = light; the Visibility
-/// form is expanded, None gives identities. Throws ValueError for the Diffuse form, ResourceError when they
-/// would not fit in memory.
+/// Dense matrices as f32, [S, n^2, n^2] or [S, n^2, n^2, 3], row = transferred, column = light; the
+/// Visibility form is expanded, None gives identities. Throws ValueError for the Diffuse form, ResourceError
+/// when they would not fit in memory.
 Array expandedMatrices(const Transfer& transfer);
 /// Irradiance vectors as f32, [S, n^2] or [S, n^2, 3], for every form that holds them (not None: ValueError).
 Array diffuseVectors(const Transfer& transfer);
 
 /// The reverse of expandedMatrices() for the Matrix form: Transfer::values from [S, n^2, n^2] floats, or
 /// [S, n^2, n^2, 3] with 3 channels, stored as f32 or f16.
-Array packedMatrices(std::span<const float> matrices, std::size_t samples, int channels, int bands, DType storage);
+Array packedMatrices(std::span<const float> matrices, std::size_t samples, int channels, int bands,
+                     DType storage);
 
 }  // namespace prt

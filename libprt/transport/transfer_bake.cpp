@@ -56,15 +56,21 @@ SampleRows padded(const Array& array, std::size_t width) {
   return rows;
 }
 
-void checkParts(const Scene& scene, const SampleSet& samples, const DirectTransfer& direct, const TransferSettings& settings,
-                TransferForm form, const Transfer* surface) {
-  const bool fits = direct.samples() == samples.size() && direct.settings.bands == settings.bands && direct.raysPerSample > 0 &&
-                    (form == TransferForm::Diffuse || direct.settings.visibility);
-  if (!fits) throw ValueError("direct transfer is of another bake", "transfer", "bake direct transfer with the same settings");
+void checkParts(const Scene& scene, const SampleSet& samples, const DirectTransfer& direct,
+                const TransferSettings& settings, TransferForm form, const Transfer* surface) {
+  const bool fits = direct.samples() == samples.size() && direct.settings.bands == settings.bands &&
+                    direct.raysPerSample > 0 && (form == TransferForm::Diffuse || direct.settings.visibility);
+  if (!fits)
+    throw ValueError("direct transfer is of another bake", "transfer",
+                     "bake direct transfer with the same settings");
   if (settings.bounces == 0 || form == TransferForm::Visibility || samples.vertices > 0) return;
-  const bool serves = surface && surface->bands == settings.bands && (surface->bounces == 0 || surface->surface.shape.size() >= 2) &&
-                      (surface->bounces == 0 || std::size_t(surface->surface.shape[0]) >= scene.mesh.vertexCount());
-  if (!serves) throw ValueError("points off the vertices need the vertices' transfer for their bounces", "transfer", "bake the vertices first");
+  const bool serves =
+      surface && surface->bands == settings.bands &&
+      (surface->bounces == 0 || surface->surface.shape.size() >= 2) &&
+      (surface->bounces == 0 || std::size_t(surface->surface.shape[0]) >= scene.mesh.vertexCount());
+  if (!serves)
+    throw ValueError("points off the vertices need the vertices' transfer for their bounces", "transfer",
+                     "bake the vertices first");
 }
 
 /// Light on the surface before the last bounce, and what the vertices have after it.
@@ -108,7 +114,8 @@ class Finish {
     const auto count = std::int64_t(out.samples);
     const std::vector<float> e = dense(bounced.total);
     if (out.bounces > 0)
-      out.surface = Array::from(std::span<const float>(dense(bounced.surface)), vectorShape(bounced.surface.count(), out.bands, out.channels));
+      out.surface = Array::from(std::span<const float>(dense(bounced.surface)),
+                                vectorShape(bounced.surface.count(), out.bands, out.channels));
     const DType storage = storageOf(settings_, form_);
     if (form_ == TransferForm::Diffuse) {
       out.values = stored(e, vectorShape(out.samples, out.bands, out.channels), storage, out.storageError);
@@ -116,7 +123,8 @@ class Finish {
     }
     out.diffuse = Array::from(std::span<const float>(e), vectorShape(out.samples, out.bands, out.channels));
     if (form_ == TransferForm::Visibility)
-      out.values = stored(direct_.visibility.as<float>(), {count, shCount(2 * out.bands - 1)}, storage, out.storageError);
+      out.values = stored(direct_.visibility.as<float>(), {count, shCount(2 * out.bands - 1)}, storage,
+                          out.storageError);
     else
       out.values = matrices(bounced, storage, out.storageError);
     return out;
@@ -137,11 +145,13 @@ class Finish {
     bounced.bounces = surface_->bounces;
     bounced.surface = padded(surface_->surface, std::size_t(shCount(settings_.bands) * surface_->channels));
     job_.begin("bounces", gather_.rayCount(), "rays");
-    const SampleRows gathered = gather_.irradiance(leavingRadiance(scene_, surfaceSet_, bounced.surface, bounced.channels), job_);
+    const SampleRows gathered =
+        gather_.irradiance(leavingRadiance(scene_, surfaceSet_, bounced.surface, bounced.channels), job_);
     const SampleRows direct = std::move(bounced.total);
     bounced.total = gathered;
     for (std::size_t s = 0; s < direct.count(); ++s)
-      for (std::size_t i = 0; i < gathered.width; ++i) bounced.total.row(s)[i] += direct.row(s)[i / std::size_t(bounced.channels)];
+      for (std::size_t i = 0; i < gathered.width; ++i)
+        bounced.total.row(s)[i] += direct.row(s)[i / std::size_t(bounced.channels)];
     return bounced;
   }
 
@@ -165,10 +175,12 @@ class Finish {
 
   /// T_0 in every channel, plus what bounces add (null: nothing).
   std::vector<float> withDirect(std::size_t sample, const float* indirect, std::size_t channels) const {
-    const auto functions = std::size_t(shCount(settings_.bands)), wide = std::size_t(shCount(2 * settings_.bands - 1));
+    const auto functions = std::size_t(shCount(settings_.bands)),
+               wide = std::size_t(shCount(2 * settings_.bands - 1));
     std::vector<float> direct(functions * functions), matrix(direct.size() * channels);
     expandVisibility(settings_.bands, direct_.visibility.as<float>().subspan(sample * wide, wide), direct);
-    for (std::size_t i = 0; i < matrix.size(); ++i) matrix[i] = direct[i / channels] + (indirect ? indirect[i] : 0.0f);
+    for (std::size_t i = 0; i < matrix.size(); ++i)
+      matrix[i] = direct[i / channels] + (indirect ? indirect[i] : 0.0f);
     return matrix;
   }
 
@@ -192,22 +204,27 @@ class Finish {
 void check(const TransferSettings& settings) {
   const auto inRange = [](const std::string& path, double value, double low, double high) {
     if (value >= low && value <= high) return;
-    throw ValueError("is out of range", path, "use " + std::to_string(std::int64_t(low)) + " to " + std::to_string(std::int64_t(high)));
+    throw ValueError(
+        "is out of range", path,
+        "use " + std::to_string(std::int64_t(low)) + " to " + std::to_string(std::int64_t(high)));
   };
   inRange("transfer.bands", settings.bands, 1, 10);
   inRange("transfer.rays", settings.rays, 1, kMaxRays);
   inRange("transfer.bounces", settings.bounces, 0, kMaxBounces);
   inRange("transfer.threshold", settings.stopThreshold, 0, 1);
   if (settings.storage && *settings.storage != DType::f16 && *settings.storage != DType::f32)
-    throw ValueError("cannot store transfer as " + toString(*settings.storage), "transfer.storage", "use f16 or f32");
+    throw ValueError("cannot store transfer as " + toString(*settings.storage), "transfer.storage",
+                     "use f16 or f32");
   if (settings.form == TransferForm::Visibility && settings.bounces > 0 && settings.shadows)
-    throw ValueError("the visibility form holds shadows only", "transfer.kind", "use matrix, or set transfer.bounces to 0");
+    throw ValueError("the visibility form holds shadows only", "transfer.kind",
+                     "use matrix, or set transfer.bounces to 0");
 }
 
 TransferForm resolveForm(const TransferSettings& settings, std::span<const Material> materials) {
   if (!settings.shadows) return TransferForm::None;
   if (settings.form) return *settings.form;
-  if (std::ranges::none_of(materials, [](const Material& m) { return m.glossy(); })) return TransferForm::Diffuse;
+  if (std::ranges::none_of(materials, [](const Material& m) { return m.glossy(); }))
+    return TransferForm::Diffuse;
   return settings.bounces == 0 ? TransferForm::Visibility : TransferForm::Matrix;
 }
 
@@ -244,7 +261,8 @@ Transfer bakeTransfer(std::shared_ptr<const Scene> scene, std::shared_ptr<const 
   DirectBake bake(scene, rays, samples, directSettings(settings, form));
   while (!bake.done()) {
     bake.advance(job);
-    if (preview && !bake.done()) preview(finishTransfer(*scene, *rays, *samples, bake.product(job), settings, form, job));
+    if (preview && !bake.done())
+      preview(finishTransfer(*scene, *rays, *samples, bake.product(job), settings, form, job));
   }
   return finishTransfer(*scene, *rays, *samples, bake.product(job), settings, form, job);
 }

@@ -14,8 +14,10 @@ namespace {
 
 std::vector<float> asFloats(const Array& array) {
   std::vector<float> values(array.size());
-  if (array.dtype == DType::f32) std::ranges::copy(array.as<float>(), values.begin());
-  else fromHalf(array.as<std::uint16_t>(), values);
+  if (array.dtype == DType::f32)
+    std::ranges::copy(array.as<float>(), values.begin());
+  else
+    fromHalf(array.as<std::uint16_t>(), values);
   return values;
 }
 
@@ -27,7 +29,8 @@ void expandColumns(const Transfer& transfer, const MatrixLayout& layout, std::sp
     for (std::size_t c = 0; c < channels; ++c)
       for (std::size_t column = 0; column < n; ++column)
         for (std::size_t row = 0; row < n; ++row)
-          out[((s * n + row) * n + column) * channels + c] = values[((s * channels + c) * n + column) * n + row];
+          out[((s * n + row) * n + column) * channels + c] =
+              values[((s * channels + c) * n + column) * n + row];
 }
 
 }  // namespace
@@ -35,16 +38,21 @@ void expandColumns(const Transfer& transfer, const MatrixLayout& layout, std::sp
 Array expandedMatrices(const Transfer& transfer) {
   if (transfer.form == TransferForm::Diffuse)
     throw ValueError("diffuse vectors are not matrices", "transfer", "bake the visibility or matrix form");
-  const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels), std::size_t(transfer.functions())};
+  const MatrixLayout layout{transfer.samples, std::size_t(transfer.channels),
+                            std::size_t(transfer.functions())};
   const std::size_t one = layout.functions * layout.functions * layout.channels;
-  requireMemory(layout.samples * one * sizeof(float), "expanded transfer matrices", "export fewer samples or bands");
+  requireMemory(layout.samples * one * sizeof(float), "expanded transfer matrices",
+                "export fewer samples or bands");
   const auto n = std::int64_t(layout.functions);
-  Array array{DType::f32, {std::int64_t(layout.samples), n, n}, std::vector<std::byte>(layout.samples * one * sizeof(float))};
+  Array array{DType::f32,
+              {std::int64_t(layout.samples), n, n},
+              std::vector<std::byte>(layout.samples * one * sizeof(float))};
   if (layout.channels == 3) array.shape.push_back(3);
   const std::span<float> out(reinterpret_cast<float*>(array.bytes.data()), layout.samples * one);
   if (transfer.form == TransferForm::Matrix) expandColumns(transfer, layout, out);
   if (transfer.form == TransferForm::None)
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = i % one / layout.functions == i % layout.functions ? 1.0f : 0.0f;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = i % one / layout.functions == i % layout.functions ? 1.0f : 0.0f;
   if (transfer.form == TransferForm::Visibility) {
     const std::vector<float> v = asFloats(transfer.values);
     const auto wide = std::size_t(shCount(2 * transfer.bands - 1));
@@ -56,7 +64,8 @@ Array expandedMatrices(const Transfer& transfer) {
 
 Array diffuseVectors(const Transfer& transfer) {
   if (transfer.form == TransferForm::None)
-    throw ValueError("unshadowed transfer stores no vectors", "transfer", "use irradiance() with the normals");
+    throw ValueError("unshadowed transfer stores no vectors", "transfer",
+                     "use irradiance() with the normals");
   const Array& from = transfer.form == TransferForm::Diffuse ? transfer.values : transfer.diffuse;
   const std::vector<float> values = asFloats(from);
   return Array::from(std::span<const float>(values), from.shape);

@@ -45,7 +45,8 @@ class Commands : public testing::Test {
   }
   /// A project that is quick to bake.
   void bakeSmall(const std::string& output, std::vector<std::string> more = {}) {
-    std::vector<std::string> words{"bake", "builtin:torus", "-o", output, "--set", "mesh.detail=0.2", "--set", "transfer.rays=64",
+    std::vector<std::string> words{"bake",  "builtin:torus",     "-o",    output,
+                                   "--set", "mesh.detail=0.2",   "--set", "transfer.rays=64",
                                    "--set", "transfer.bounces=1"};
     words.insert(words.end(), more.begin(), more.end());
     const ProgramResult result = prt(words);
@@ -69,7 +70,8 @@ TEST_F(Commands, HelpShowsAnExample) {
 
 TEST_F(Commands, BakeListsEverySetting) {
   const std::string help = prt({"bake", "--help"}).out;
-  for (const char* path : {"objects[].mesh.path", "objects[].material.albedo", "transfer.bounces", "lights[].rotation"})
+  for (const char* path :
+       {"objects[].mesh.path", "objects[].material.albedo", "transfer.bounces", "lights[].rotation"})
     EXPECT_THAT(help, HasSubstr(path));
 }
 
@@ -79,7 +81,8 @@ TEST_F(Commands, TheRecipePageIsUpToDate) {
   const ProgramResult now = prt({"bake", "--help-all"});
   EXPECT_EQ(now.status, 0);
   EXPECT_TRUE(now.out == page) << "write it anew with ./dev docs, or prt bake --help-all > docs/recipe.md";
-  for (const char* path : {"`objects[].mesh.path`", "`lights[].rotation`", "`transfer.kind`", "auto, none, diffuse, visibility, matrix"})
+  for (const char* path : {"`objects[].mesh.path`", "`lights[].rotation`", "`transfer.kind`",
+                           "auto, none, diffuse, visibility, matrix"})
     EXPECT_THAT(page, HasSubstr(path));
 }
 
@@ -124,8 +127,7 @@ TEST_F(Commands, RecipesAndProjectsMoveBetweenFolders) {
   // The source may go: the project has what it needs.
   fs::remove_all(folder / "in");
   const json again = prtJson({"bake", "out/a.prt", "-o", "b.prt", "--set", "material.albedo=0.1"});
-  for (const json& stage : again["stages"])
-    EXPECT_FALSE(stage["made"] && stage["name"] == "mesh");
+  for (const json& stage : again["stages"]) EXPECT_FALSE(stage["made"] && stage["name"] == "mesh");
 }
 
 TEST_F(Commands, LightPrintsEnergyAndTruncation) {
@@ -165,7 +167,8 @@ TEST_F(Commands, LightIsWrittenThroughOneWindow) {
 }
 
 TEST_F(Commands, WhatASettingExcludesIsTold) {
-  const std::vector<std::string> shadowsOnly{"--set", "transfer.kind=visibility", "--set", "transfer.bounces=2"};
+  const std::vector<std::string> shadowsOnly{"--set", "transfer.kind=visibility", "--set",
+                                             "transfer.bounces=2"};
   std::vector<std::string> words{"bake", "builtin:box", "-o", "a.prt", "--set", "transfer.rays=16"};
   words.insert(words.end(), shadowsOnly.begin(), shadowsOnly.end());
   const ProgramResult result = prt(words);
@@ -203,8 +206,10 @@ TEST_F(Commands, RelightAgreesWithTheReference) {
 }
 
 TEST_F(Commands, LightsThatAreOffShineForNobody) {
-  const std::vector<std::string> off{"--set", "lights[1].kind=circle", "--set", "lights[1].radiance=9", "--set", "lights[1].on=false",
-                                     "--set", "lights[2].path=builtin:studio", "--set", "lights[2].on=false"};
+  const std::vector<std::string> off{
+      "--set", "lights[1].kind=circle", "--set", "lights[1].radiance=9",
+      "--set", "lights[1].on=false",    "--set", "lights[2].path=builtin:studio",
+      "--set", "lights[2].on=false"};
   bakeSmall("plain.prt");
   bakeSmall("muted.prt", off);
   bakeSmall("lit.prt", {"--set", "lights[1].kind=circle", "--set", "lights[1].radiance=9"});
@@ -214,7 +219,8 @@ TEST_F(Commands, LightsThatAreOffShineForNobody) {
     EXPECT_EQ(result.status, 0) << result.err;
     return readImage(folder / "out.exr").data;
   };
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"relight", "--background"}, {"relight", "--backend", "gl"},
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"relight", "--background"},
+                                                {"relight", "--backend", "gl"},
                                                 {"reference", "--spp", "8"}}) {
     EXPECT_EQ(picture("muted.prt", words), picture("plain.prt", words)) << words[0];
     EXPECT_NE(picture("lit.prt", words), picture("plain.prt", words)) << words[0];
@@ -224,8 +230,10 @@ TEST_F(Commands, LightsThatAreOffShineForNobody) {
 TEST_F(Commands, TheSunIsMovedBySettingsAndEveryRendererSeesIt) {
   // A slope with nothing around it, the sun straight before it and aside.
   const auto bake = [&](const std::string& output, const char* azimuth) {
-    bakeSmall(output, {"--set", "mesh=builtin:ground", "--set", "mesh.detail=1", "--set", "transform.rotate=0,0,40", "--set",
-                       "transfer.bounces=0", "--set", "transfer.bands=10", "--set", "lights[0].sunElevation=25", "--set", std::string("lights[0].sunAzimuth=") + azimuth});
+    bakeSmall(output,
+              {"--set", "mesh=builtin:ground", "--set", "mesh.detail=1", "--set", "transform.rotate=0,0,40",
+               "--set", "transfer.bounces=0", "--set", "transfer.bands=10", "--set",
+               "lights[0].sunElevation=25", "--set", std::string("lights[0].sunAzimuth=") + azimuth});
   };
   bake("before.prt", "90");
   bake("aside.prt", "0");
@@ -247,13 +255,15 @@ TEST_F(Commands, TheSunIsMovedBySettingsAndEveryRendererSeesIt) {
     EXPECT_NEAR(gl / cpu, 1, 1e-3) << project;
     EXPECT_NEAR(cpu / truth, 1, 0.03) << project << ": irradiance needs few bands";
   }
-  EXPECT_GT(mean("b.exr", {"relight", "before.prt"}) / mean("a.exr", {"relight", "aside.prt"}), 1.5) << "it slopes towards -X";
+  EXPECT_GT(mean("b.exr", {"relight", "before.prt"}) / mean("a.exr", {"relight", "aside.prt"}), 1.5)
+      << "it slopes towards -X";
 }
 
 TEST_F(Commands, RelightTurnsTheEnvironment) {
   bakeSmall("a.prt");
   const auto picture = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> words{"relight", "a.prt", "--env", "builtin:orientation", "--size", "32x24", "-o", name};
+    std::vector<std::string> words{"relight", "a.prt", "--env", "builtin:orientation",
+                                   "--size",  "32x24", "-o",    name};
     words.insert(words.end(), more.begin(), more.end());
     EXPECT_EQ(prt(words).status, 0);
     return readImage(folder / name).data;
@@ -285,18 +295,24 @@ double agreement(const Image& a, const Image& b, const std::vector<bool>& off) {
 
 TEST_F(Commands, RelightWithOpenGlMakesTheSamePicture) {
   constexpr int kWidth = 320, kHeight = 240;
-  std::ofstream(folder / "cam.json") << R"({"eye": [1.2, 1.6, 2.4], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40})";
+  std::ofstream(folder / "cam.json")
+      << R"({"eye": [1.2, 1.6, 2.4], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 40})";
   Camera camera;
   camera.eye = Vec3(1.2f, 1.6f, 2.4f);
   camera.verticalFov = float(radians(40.0));
   const std::vector<bool> off = test::offEdges(makeBuiltinMesh("torus", 0.2f, 1), camera, kWidth, kHeight);
-  const std::vector<std::string> glossy{"--set", "material.model=phong", "--set", "material.specular=0.3", "--set", "material.exponent=30"};
+  const std::vector<std::string> glossy{"--set", "material.model=phong", "--set", "material.specular=0.3",
+                                        "--set", "material.exponent=30"};
   const std::vector<std::vector<std::string>> materials{{}, glossy};
   for (const auto& material : materials) {
     bakeSmall("a.prt", material);
     for (const char* backend : {"cpu", "gl"})
-      ASSERT_EQ(prt({"relight", "a.prt", "--backend", backend, "--camera", "cam.json", "--size", "320x240", "--background", "-o", std::string(backend) + ".exr"}).status, 0);
-    EXPECT_GE(agreement(readImage(folder / "gl.exr"), readImage(folder / "cpu.exr"), off), 0.999) << material.size();
+      ASSERT_EQ(prt({"relight", "a.prt", "--backend", backend, "--camera", "cam.json", "--size", "320x240",
+                     "--background", "-o", std::string(backend) + ".exr"})
+                    .status,
+                0);
+    EXPECT_GE(agreement(readImage(folder / "gl.exr"), readImage(folder / "cpu.exr"), off), 0.999)
+        << material.size();
   }
 }
 
@@ -306,7 +322,8 @@ TEST_F(Commands, TwoSidedSurfacesAreLitFromBothSides) {
   std::ofstream obj(folder / "sheet.obj");
   const auto at = [](int i) { return 2.0 * i / (kSide - 1) - 1; };
   for (int j = 0; j < kSide; ++j)
-    for (int i = 0; i < kSide; ++i) obj << "v " << at(i) << " " << 0.6 * at(i) * at(i) << " " << at(j) << "\n";
+    for (int i = 0; i < kSide; ++i)
+      obj << "v " << at(i) << " " << 0.6 * at(i) * at(i) << " " << at(j) << "\n";
   for (int j = 0; j + 1 < kSide; ++j)
     for (int i = 0; i + 1 < kSide; ++i) {
       const int a = 1 + j * kSide + i;
@@ -317,19 +334,28 @@ TEST_F(Commands, TwoSidedSurfacesAreLitFromBothSides) {
   Job job;
   const std::map<std::string, Camera> cameras{{"above", {.eye = {1, 3, 2}}}, {"below", {.eye = {1, -3, 2}}}};
   for (const auto& [name, camera] : cameras)
-    std::ofstream(folder / (name + ".json")) << json{{"eye", {camera.eye.x, camera.eye.y, camera.eye.z}}, {"target", {0, 0, 0}}, {"up", {0, 1, 0}}, {"vfov_deg", 30}};
-  const auto picture = [&](std::vector<std::string> words, const std::string& camera, const std::string& name) {
-    words.insert(words.end(), {"a.prt", "--light", "constant:1", "--light", "circle:1,-1,0.5:60:2,1,1", "--camera", camera + ".json", "--size", "120x90", "-o", name});
+    std::ofstream(folder / (name + ".json")) << json{{"eye", {camera.eye.x, camera.eye.y, camera.eye.z}},
+                                                     {"target", {0, 0, 0}},
+                                                     {"up", {0, 1, 0}},
+                                                     {"vfov_deg", 30}};
+  const auto picture = [&](std::vector<std::string> words, const std::string& camera,
+                           const std::string& name) {
+    words.insert(words.end(), {"a.prt", "--light", "constant:1", "--light", "circle:1,-1,0.5:60:2,1,1",
+                               "--camera", camera + ".json", "--size", "120x90", "-o", name});
     const ProgramResult result = prt(words);
     EXPECT_EQ(result.status, 0) << result.err;
     return readImage(folder / name);
   };
-  const std::vector<std::string> common{"bake", "sheet.obj", "-o", "a.prt", "--set", "transfer.bounces=1", "--set", "material.albedo=0.8,0.5,0.3",
+  const std::vector<std::string> common{"bake",  "sheet.obj",
+                                        "-o",    "a.prt",
+                                        "--set", "transfer.bounces=1",
+                                        "--set", "material.albedo=0.8,0.5,0.3",
                                         "--set", "mesh.orientation=keep"};
   const auto bake = [&](const std::string& twoSided, const std::string& model) {
     std::vector<std::string> words = common;
-    words.insert(words.end(), {"--set", "material.twoSided=" + twoSided, "--set", "material.model=" + model, "--set", "material.exponent=10",
-                              "--set", "material.specular=" + std::string(model == "phong" ? "0.3" : "0")});
+    words.insert(words.end(), {"--set", "material.twoSided=" + twoSided, "--set", "material.model=" + model,
+                               "--set", "material.exponent=10", "--set",
+                               "material.specular=" + std::string(model == "phong" ? "0.3" : "0")});
     return prtJson(words);
   };
   for (const char* model : {"lambert", "phong"}) {
@@ -341,8 +367,10 @@ TEST_F(Commands, TwoSidedSurfacesAreLitFromBothSides) {
     for (const auto& [name, camera] : cameras) {
       const Image cpu = picture({"relight"}, name, "cpu.exr");
       EXPECT_GT(cpu.rgb(kWidth / 2, kHeight / 2).x, 0.1f) << model << " from " << name;
-      const std::vector<bool> off = test::offEdges(loadMesh(folder / "sheet.obj", {.orientation = Orientation::keep}, job), camera, kWidth, kHeight);
-      EXPECT_GE(agreement(cpu, picture({"relight", "--backend", "gl"}, name, "gl.exr"), off), 0.999) << model << " from " << name;
+      const std::vector<bool> off = test::offEdges(
+          loadMesh(folder / "sheet.obj", {.orientation = Orientation::keep}, job), camera, kWidth, kHeight);
+      EXPECT_GE(agreement(cpu, picture({"relight", "--backend", "gl"}, name, "gl.exr"), off), 0.999)
+          << model << " from " << name;
       if (std::string(model) == "phong") continue;  // lights of few bands have no sharp highlights to compare
       picture({"reference", "--spp", "256"}, name, "truth.exr");
       EXPECT_LT(prtJson({"compare", "cpu.exr", "truth.exr"})["percentile95"], 0.03) << name;
@@ -354,15 +382,21 @@ TEST_F(Commands, TwoSidedSurfacesAreLitFromBothSides) {
     EXPECT_EQ(readNpy(folder / "npy/transfer_diffuse.npy").shape[0], kVertices);
   }
   EXPECT_EQ(bake("false", "lambert")["transfer"]["samples"], kVertices);
-  EXPECT_EQ(picture({"relight"}, "below", "dark.exr").rgb(kWidth / 2, kHeight / 2).x, 0) << "the back of a one-sided sheet";
+  EXPECT_EQ(picture({"relight"}, "below", "dark.exr").rgb(kWidth / 2, kHeight / 2).x, 0)
+      << "the back of a one-sided sheet";
 }
 
 TEST_F(Commands, CamerasComeFromFilesAndNames) {
-  std::ofstream(folder / "r.json") << R"({"mesh": "builtin:box", "cameras": [{"name": "side", "eye": [4, 0, 0]}], "transfer": {"rays": 16}})";
+  std::ofstream(folder / "r.json")
+      << R"({"mesh": "builtin:box", "cameras": [{"name": "side", "eye": [4, 0, 0]}], "transfer": {"rays": 16}})";
   ASSERT_EQ(prt({"bake", "r.json", "-o", "a.prt"}).status, 0);
-  std::ofstream(folder / "cam.json") << R"({"eye": [4, 0, 0], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 30})";
+  std::ofstream(folder / "cam.json")
+      << R"({"eye": [4, 0, 0], "target": [0, 0, 0], "up": [0, 1, 0], "vfov_deg": 30})";
   for (const char* camera : {"side", "cam.json"})
-    ASSERT_EQ(prt({"relight", "a.prt", "--camera", camera, "--size", "32x24", "-o", std::string(camera) + ".exr"}).status, 0);
+    ASSERT_EQ(
+        prt({"relight", "a.prt", "--camera", camera, "--size", "32x24", "-o", std::string(camera) + ".exr"})
+            .status,
+        0);
   EXPECT_EQ(readImage(folder / "side.exr").data, readImage(folder / "cam.json.exr").data);
 }
 
@@ -371,14 +405,16 @@ TEST_F(Commands, ExportWritesWhatTheManifestSays) {
   prtJson({"export", "a.prt", "--npy", "npy", "--exr", "exr", "--gltf", "gltf"});
   const auto manifestOf = [&](const std::string& kind) {
     const json manifest = json::parse(std::ifstream(folder / (kind + "/manifest.json")));
-    for (const auto& [file, entry] : manifest["files"].items()) EXPECT_TRUE(fs::exists(folder / (kind + "/" + file))) << file;
+    for (const auto& [file, entry] : manifest["files"].items())
+      EXPECT_TRUE(fs::exists(folder / (kind + "/" + file))) << file;
     return manifest;
   };
   const json npy = manifestOf("npy");
   const auto vertices = npy["vertices"].get<std::int64_t>(), faces = npy["faces"].get<std::int64_t>();
   const std::map<std::string, std::vector<std::int64_t>> shapes{
-      {"positions", {vertices, 3}}, {"normals", {vertices, 3}},          {"tangents", {vertices, 3}},
-      {"faces", {faces, 3}},        {"transfer", {vertices, 25, 25, 3}}, {"transfer_diffuse", {vertices, 25, 3}}};
+      {"positions", {vertices, 3}},        {"normals", {vertices, 3}},
+      {"tangents", {vertices, 3}},         {"faces", {faces, 3}},
+      {"transfer", {vertices, 25, 25, 3}}, {"transfer_diffuse", {vertices, 25, 3}}};
   for (const auto& [name, shape] : shapes) {
     const Array array = readNpy(folder / ("npy/" + name + ".npy"));
     EXPECT_EQ(array.shape, shape) << name;
@@ -392,12 +428,14 @@ TEST_F(Commands, ExportWritesWhatTheManifestSays) {
 }
 
 TEST_F(Commands, DemoLeavesAPageThatNeedsNothingElse) {
-  const json demo = prtJson({"demo", "-o", "d", "--scene", "default", "--frames", "2", "--size", "48x36", "--set", "transfer.rays=32",
-                             "--set", "objects[0].mesh.detail=0.3", "--set", "objects[1].mesh.detail=0.3"});
+  const json demo = prtJson({"demo", "-o", "d", "--scene", "default", "--frames", "2", "--size", "48x36",
+                             "--set", "transfer.rays=32", "--set", "objects[0].mesh.detail=0.3", "--set",
+                             "objects[1].mesh.detail=0.3"});
   std::ifstream file(folder / "d/index.html");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
-  for (const char* outside : {"http://", "https://", "<link", "@import"}) EXPECT_THAT(page, testing::Not(HasSubstr(outside)));
+  for (const char* outside : {"http://", "https://", "<link", "@import"})
+    EXPECT_THAT(page, testing::Not(HasSubstr(outside)));
   EXPECT_EQ(readImage(folder / "d/default_180.png").width, 48);
   EXPECT_TRUE(demo["scenes"].contains("default"));
 }
@@ -405,7 +443,8 @@ TEST_F(Commands, DemoLeavesAPageThatNeedsNothingElse) {
 TEST_F(Commands, ReferenceIsTheSamePictureForTheSameSeed) {
   bakeSmall("a.prt");
   const auto picture = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> words{"reference", "a.prt", "--env", "builtin:overcast", "--size", "40x30", "--spp", "4", "-o", name};
+    std::vector<std::string> words{
+        "reference", "a.prt", "--env", "builtin:overcast", "--size", "40x30", "--spp", "4", "-o", name};
     words.insert(words.end(), more.begin(), more.end());
     const ProgramResult result = prt(words);
     EXPECT_EQ(result.status, 0) << result.err;
@@ -419,11 +458,15 @@ TEST_F(Commands, ReferenceIsTheSamePictureForTheSameSeed) {
 TEST_F(Commands, CompareMeasuresAndPaints) {
   bakeSmall("a.prt");
   for (const char* seed : {"1", "2", "3"})
-    ASSERT_EQ(prt({"reference", "a.prt", "--light", "constant:1", "--size", "64x48", "--spp", "16", "--seed", seed, "-o", std::string(seed) + ".exr"}).status, 0);
+    ASSERT_EQ(prt({"reference", "a.prt", "--light", "constant:1", "--size", "64x48", "--spp", "16", "--seed",
+                   seed, "-o", std::string(seed) + ".exr"})
+                  .status,
+              0);
   const json same = prtJson({"compare", "1.exr", "1.exr"});
   EXPECT_EQ(same["rmse"], 0);
   EXPECT_EQ(same["flip"], 0);
-  const json other = prtJson({"compare", "1.exr", "2.exr", "--second-reference", "3.exr", "--heatmap", "heat.png"});
+  const json other =
+      prtJson({"compare", "1.exr", "2.exr", "--second-reference", "3.exr", "--heatmap", "heat.png"});
   EXPECT_GT(other["relative_rmse"], 0);
   EXPECT_GE(other["max"], other["rmse"]);
   EXPECT_TRUE(other.contains("noise_free"));

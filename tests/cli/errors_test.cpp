@@ -23,7 +23,8 @@ constexpr int kFailed = 1, kUsage = 2;
 /// Names of everything in a folder, hidden files included.
 std::set<std::string> namesIn(const fs::path& folder) {
   std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) names.insert(fs::relative(entry.path(), folder));
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.insert(fs::relative(entry.path(), folder));
   return names;
 }
 
@@ -36,8 +37,13 @@ class Errors : public testing::Test {
     std::ofstream(folder / "typo.json") << R"({"transfer": {"bonces": 3}})";
     std::ofstream(folder / "empty.prt");
     fs::create_directory(folder / "dir");
-    ASSERT_EQ(test::run({"prt", "bake", "t.obj", "-o", "a.prt", "--set", "transfer.rays=16", "-q"}, folder.path()).status, 0);
-    ASSERT_EQ(test::run({"prt", "bake", "t.obj", "-o", "mesh.prt", "--stage", "mesh", "-q"}, folder.path()).status, 0);
+    ASSERT_EQ(
+        test::run({"prt", "bake", "t.obj", "-o", "a.prt", "--set", "transfer.rays=16", "-q"}, folder.path())
+            .status,
+        0);
+    ASSERT_EQ(
+        test::run({"prt", "bake", "t.obj", "-o", "mesh.prt", "--stage", "mesh", "-q"}, folder.path()).status,
+        0);
     fs::resize_file((fs::copy_file(folder / "a.prt", folder / "cut.prt"), folder / "cut.prt"), 200000);
   }
 
@@ -63,7 +69,8 @@ TEST_F(Errors, WrongUsageIsStatus2) {
   EXPECT_THAT(failure(kUsage, {"bkae"}), HasSubstr("did you mean bake?"));
   EXPECT_THAT(failure(kUsage, {"bake"}), HasSubstr("INPUT is required"));
   EXPECT_THAT(failure(kUsage, {"bake", "t.obj"}), HasSubstr("-o"));
-  EXPECT_THAT(failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stages", "mesh"}), HasSubstr("did you mean --stage?"));
+  EXPECT_THAT(failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stages", "mesh"}),
+              HasSubstr("did you mean --stage?"));
   failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stage", "charts"});
   failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--threads", "many"});
   failure(kUsage, {"info"});
@@ -85,16 +92,21 @@ TEST_F(Errors, WrongUsageIsStatus2) {
 }
 
 TEST_F(Errors, LightsAreExplained) {
-  for (const char* light : {"circle:0,1,0:30", "circle:0,0,0:30:1", "circle:0,1,0:-3:1", "circle:0,1,0:30:1,2", "square:1", "constant:x", ""})
-    EXPECT_THAT(failure(kUsage, {"reference", "a.prt", "-o", "x.exr", "--light", light}), HasSubstr("circle:DIR:DEG:RGB")) << light;
+  for (const char* light : {"circle:0,1,0:30", "circle:0,0,0:30:1", "circle:0,1,0:-3:1",
+                            "circle:0,1,0:30:1,2", "square:1", "constant:x", ""})
+    EXPECT_THAT(failure(kUsage, {"reference", "a.prt", "-o", "x.exr", "--light", light}),
+                HasSubstr("circle:DIR:DEG:RGB"))
+        << light;
 }
 
 TEST_F(Errors, BadInputIsStatus1) {
   EXPECT_THAT(failure(kFailed, {"bake", "none.obj", "-o", "b.prt"}), HasSubstr("none.obj: does not exist"));
   EXPECT_THAT(failure(kFailed, {"bake", "dir", "-o", "b.prt"}), HasSubstr("is a folder"));
-  EXPECT_THAT(failure(kFailed, {"bake", "text.txt", "-o", "b.prt"}), HasSubstr("neither a mesh, a recipe nor a project"));
+  EXPECT_THAT(failure(kFailed, {"bake", "text.txt", "-o", "b.prt"}),
+              HasSubstr("neither a mesh, a recipe nor a project"));
   EXPECT_THAT(failure(kFailed, {"bake", "broken.json", "-o", "b.prt"}), HasSubstr("is not JSON"));
-  EXPECT_THAT(failure(kFailed, {"bake", "typo.json", "-o", "b.prt"}), HasSubstr("did you mean transfer.bounces?"));
+  EXPECT_THAT(failure(kFailed, {"bake", "typo.json", "-o", "b.prt"}),
+              HasSubstr("did you mean transfer.bounces?"));
   EXPECT_THAT(failure(kFailed, {"bake", "scene:nowhere", "-o", "b.prt"}), HasSubstr("choose from default"));
   EXPECT_THAT(failure(kFailed, {"bake", "builtin:teapot", "-o", "b.prt"}), HasSubstr("choose from"));
   EXPECT_THAT(failure(kFailed, {"bake", "empty.prt", "-o", "b.prt"}), HasSubstr("it is empty"));
@@ -110,28 +122,35 @@ TEST_F(Errors, BadInputIsStatus1) {
   failure(kFailed, {"reference", "none.prt", "-o", "x.exr"});
   failure(kFailed, {"reference", "a.prt", "--env", "none.hdr", "-o", "x.exr"});
   failure(kFailed, {"reference", "a.prt", "--env", "builtin:mars", "-o", "x.exr"});
-  EXPECT_THAT(failure(kFailed, {"reference", "a.prt", "--camera", "side", "-o", "x.exr"}), HasSubstr("there is no camera 'side'"));
+  EXPECT_THAT(failure(kFailed, {"reference", "a.prt", "--camera", "side", "-o", "x.exr"}),
+              HasSubstr("there is no camera 'side'"));
   failure(kFailed, {"reference", "a.prt", "--camera", "broken.json", "-o", "x.exr"});
   failure(kFailed, {"relight", "cut.prt", "-o", "x.exr"});
   EXPECT_THAT(failure(kFailed, {"relight", "mesh.prt", "-o", "x.exr"}), HasSubstr("run prt bake mesh.prt"));
   EXPECT_THAT(failure(kFailed, {"export", "mesh.prt", "--npy", "d"}), HasSubstr("run prt bake mesh.prt"));
-  EXPECT_THAT(failure(kFailed, {"relight", "a.prt", "--method", "glossy", "-o", "x.exr"}), HasSubstr("glossy"));
+  EXPECT_THAT(failure(kFailed, {"relight", "a.prt", "--method", "glossy", "-o", "x.exr"}),
+              HasSubstr("glossy"));
   failure(kFailed, {"export", "a.prt", "--npy", "text.txt"});
   failure(kFailed, {"demo", "-o", "text.txt"});
   failure(kFailed, {"reference", "a.prt", "--camera", "typo.json", "-o", "x.exr"});
 }
 
 TEST_F(Errors, BadSettingsNameTheNearestPath) {
-  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bonces=3"}), HasSubstr("did you mean transfer.bounces?"));
-  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bands=99"}), HasSubstr("use 1 to 10"));
-  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bands"}), HasSubstr("PATH=VALUE"));
-  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "mesh=missing.obj"}), HasSubstr("missing.obj"));
+  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bonces=3"}),
+              HasSubstr("did you mean transfer.bounces?"));
+  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bands=99"}),
+              HasSubstr("use 1 to 10"));
+  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "transfer.bands"}),
+              HasSubstr("PATH=VALUE"));
+  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "b.prt", "--set", "mesh=missing.obj"}),
+              HasSubstr("missing.obj"));
 }
 
 TEST_F(Errors, OutputsThatCannotBeWritten) {
   EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "nowhere/b.prt"}), HasSubstr("folder does not exist"));
   EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "dir"}), HasSubstr("is a folder"));
-  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "t.obj"}), HasSubstr("not a PRT project")) << "a mesh must never be overwritten";
+  EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "t.obj"}), HasSubstr("not a PRT project"))
+      << "a mesh must never be overwritten";
   EXPECT_THAT(failure(kFailed, {"bake", "t.obj", "-o", "text.txt/b.prt"}), HasSubstr("folder"));
   failure(kFailed, {"bake", "t.obj", "-o", "/proc/b.prt"});
   failure(kFailed, {"reference", "a.prt", "-o", "nowhere/x.exr"});
@@ -159,7 +178,8 @@ TEST(BadMeshes, EndInAProjectOrOneLine) {
   const test::TemporaryFolder folder;
   int baked = 0, refused = 0;
   for (const auto& entry : fs::directory_iterator(test::sharedData("badmeshes"))) {
-    const ProgramResult result = test::run({"prt", "bake", entry.path(), "-o", "b.prt", "--stage", "mesh", "-q"}, folder.path());
+    const ProgramResult result =
+        test::run({"prt", "bake", entry.path(), "-o", "b.prt", "--stage", "mesh", "-q"}, folder.path());
     const std::string file = entry.path().filename();
     if (result.status == 0) {
       ++baked;

@@ -111,7 +111,8 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
   picture.tone = tone;
   const Image gl = renderer.renderToned(picture);
 
-  const std::vector<bool> off = test::offEdges(s.scene->mesh, s.scene->triangleObject, s.camera, kWidth, kHeight);
+  const std::vector<bool> off =
+      test::offEdges(s.scene->mesh, s.scene->triangleObject, s.camera, kWidth, kHeight);
   int compared = 0, agreeing = 0;
   float worst = 0;
   for (int y = 0; y < kHeight; ++y)

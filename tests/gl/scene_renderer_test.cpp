@@ -31,13 +31,16 @@ Scene sceneOf(TriMesh mesh, const Material& material = {.albedo = Rgb(1)}) {
 TriMesh slantedTriangle() {
   TriMesh mesh;
   mesh.positions = {{-0.6f, -0.5f, 1.2f}, {0.9f, -0.4f, -0.5f}, {0.1f, 0.7f, -3.0f}};
-  const Vec3 n = normalize(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[2] - mesh.positions[0]));
+  const Vec3 n =
+      normalize(cross(mesh.positions[1] - mesh.positions[0], mesh.positions[2] - mesh.positions[0]));
   mesh.normals = {n, n, n};
   mesh.triangles = {{0, 1, 2}};
   return mesh;
 }
 
-Picture picture(int samples = 1) { return {.camera = {}, .width = kWidth, .height = kHeight, .samples = samples}; }
+Picture picture(int samples = 1) {
+  return {.camera = {}, .width = kWidth, .height = kHeight, .samples = samples};
+}
 
 // Barycentrics of where a ray meets the triangle.
 std::optional<Vec3> meets(const Vec3& eye, const Vec3& d, const TriMesh& mesh) {
@@ -71,7 +74,8 @@ TEST_F(SceneRendererTest, IrradianceIsInterpolatedInSpaceAndReflected) {
       if (b.has_value() != covered) ++disagree;  // a centre on the very edge
       if (!b || !covered) continue;
       ++inside;
-      const Rgb expected = albedo / kPiF * (b->x * irradiance[0] + b->y * irradiance[1] + b->z * irradiance[2]);
+      const Rgb expected =
+          albedo / kPiF * (b->x * irradiance[0] + b->y * irradiance[1] + b->z * irradiance[2]);
       EXPECT_LT(length(image.rgb(x, y) - expected), 2e-4f * length(expected)) << x << ", " << y;
     }
   EXPECT_GT(inside, 300);
@@ -87,8 +91,8 @@ std::vector<Rgb> someLight(std::size_t count, unsigned seed) {
 }
 
 // Exit radiance of the slanted triangle, pixel by pixel, as the CPU works it out.
-void expectRadiance(const Image& image, const Picture& view, const TriMesh& mesh, const Material& material, int bands,
-                    const std::vector<Rgb>& perSample, bool everywhere) {
+void expectRadiance(const Image& image, const Picture& view, const TriMesh& mesh, const Material& material,
+                    int bands, const std::vector<Rgb>& perSample, bool everywhere) {
   const std::size_t n = std::size_t(shCount(bands));
   std::optional<GlossyResponse> glossy;
   if (material.glossy()) glossy.emplace(material.exponent, bands);
@@ -104,7 +108,8 @@ void expectRadiance(const Image& image, const Picture& view, const TriMesh& mesh
       const Vec3 normal = normalize(b->x * mesh.normals[0] + b->y * mesh.normals[1] + b->z * mesh.normals[2]);
       const Vec3 place = b->x * mesh.positions[0] + b->y * mesh.positions[1] + b->z * mesh.positions[2];
       const Vec3 toEye = normalize(view.camera.eye - place);
-      const Rgb expected = max(exitRadiance(material, glossy ? &*glossy : nullptr, normal, toEye, light), Rgb(0));
+      const Rgb expected =
+          max(exitRadiance(material, glossy ? &*glossy : nullptr, normal, toEye, light), Rgb(0));
       EXPECT_LT(length(image.rgb(x, y) - expected), 2e-3f * std::max(0.2f, length(expected)))
           << x << ", " << y << ", " << bands << " bands, exponent " << material.exponent;
       ++inside;
@@ -115,15 +120,18 @@ void expectRadiance(const Image& image, const Picture& view, const TriMesh& mesh
 TEST_F(SceneRendererTest, TransferredRadianceMeetsThePixelsNormalAndView) {
   SceneRenderer renderer;
   TriMesh mesh = slantedTriangle();
-  mesh.normals = {normalize(mesh.normals[0] + Vec3(0.5f, 0, 0)), normalize(mesh.normals[1] + Vec3(0, 0.6f, 0)),
+  mesh.normals = {normalize(mesh.normals[0] + Vec3(0.5f, 0, 0)),
+                  normalize(mesh.normals[1] + Vec3(0, 0.6f, 0)),
                   normalize(mesh.normals[2] + Vec3(-0.4f, 0, 0.3f))};
   const Picture view = picture();
   const auto phong = [](const Rgb& albedo, const Rgb& specular, float exponent) {
-    return Material{.model = MaterialModel::Phong, .albedo = albedo, .specular = specular, .exponent = exponent};
+    return Material{
+        .model = MaterialModel::Phong, .albedo = albedo, .specular = specular, .exponent = exponent};
   };
   for (const int bands : {1, 2, 5, 10})  // 10: fetched, and slow to compile for Mesa's software driver
-    for (const Material& material : {Material{.albedo = Rgb(0.7f, 0.5f, 0.2f)}, phong(Rgb(0.1f), Rgb(0.9f, 0.6f, 0.3f), 7),
-                                     phong(Rgb(0), Rgb(1), 3000)}) {
+    for (const Material& material :
+         {Material{.albedo = Rgb(0.7f, 0.5f, 0.2f)}, phong(Rgb(0.1f), Rgb(0.9f, 0.6f, 0.3f), 7),
+          phong(Rgb(0), Rgb(1), 3000)}) {
       if (bands == 10 && material.exponent != 7) continue;
       renderer.setScene(sceneOf(mesh, material));
       const std::vector<Rgb> light = someLight(3 * std::size_t(shCount(bands)), unsigned(bands));
@@ -144,7 +152,8 @@ TEST_F(SceneRendererTest, EachObjectHasItsOwnMaterial) {
   const TriMesh sphere = makeIcosphere({.radius = 0.4f, .subdivisions = 2});
   for (std::uint32_t object = 0; object < 3; ++object) {
     const auto first = std::uint32_t(scene.mesh.positions.size());
-    for (const Vec3& p : sphere.positions) scene.mesh.positions.push_back(p + Vec3(0.9f * (float(object) - 1), 0, 0));
+    for (const Vec3& p : sphere.positions)
+      scene.mesh.positions.push_back(p + Vec3(0.9f * (float(object) - 1), 0, 0));
     scene.mesh.normals.insert(scene.mesh.normals.end(), sphere.normals.begin(), sphere.normals.end());
     for (const UVec3& t : sphere.triangles) scene.mesh.triangles.push_back(t + first);
     scene.vertexObject.resize(scene.mesh.positions.size(), object);
@@ -267,7 +276,8 @@ TEST_F(SceneRendererTest, TexelsAreConstantOrSmoothAsAsked) {
       for (int x = 0; x < kWidth; ++x) {
         bool isTexel = false;
         for (std::size_t i = 0; i < map.pixels() && !isTexel; ++i)
-          isTexel = length(image.rgb(x, y) - 2.0f * Rgb(map.data[3 * i], map.data[3 * i + 1], map.data[3 * i + 2])) < 1e-5f;
+          isTexel = length(image.rgb(x, y) -
+                           2.0f * Rgb(map.data[3 * i], map.data[3 * i + 1], map.data[3 * i + 2])) < 1e-5f;
         between[smooth] += !isTexel;
       }
   }
@@ -312,7 +322,8 @@ TEST_F(SceneRendererTest, ToneMappingIsThatOfTheCpu) {
         view.tone = {exposure, curve};
         const Rgb shown = renderer.renderToned(view).rgb(kWidth / 2, kHeight / 2);
         const Rgb expected = toDisplay(max(radiance, Rgb(0)), view.tone);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 0.4 / 255) << radiance[c] << " at " << exposure;
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(shown[c], expected[c], 0.4 / 255) << radiance[c] << " at " << exposure;
       }
 }
 
@@ -363,8 +374,10 @@ TEST_F(SceneRendererTest, PassesAreTakenAtTheirOwnPlacesInThePixels) {
       for (int pass = 0; pass < kPasses; ++pass) {
         const Vec2 at = passShift(pass);
         const Vec3 d = view.camera.direction(float(x) + 0.5f + at.x, float(y) + 0.5f - at.y, kWidth, kHeight);
-        if (meets(view.camera.eye, d, mesh)) ++hits;
-        else expected += toDisplay(Rgb(2) + d, view.tone) / float(kPasses);
+        if (meets(view.camera.eye, d, mesh))
+          ++hits;
+        else
+          expected += toDisplay(Rgb(2) + d, view.tone) / float(kPasses);
       }
       mixed += hits > 0 && hits < kPasses;
       wrong += length(mean.rgb(x, y) - expected) > 0.02f;

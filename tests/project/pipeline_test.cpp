@@ -36,13 +36,16 @@ Recipe small() {
   return recipe;
 }
 
-Products runOn(ToyStages& toy, ProductStore* store, const Recipe& recipe, PipelineListener* listener = nullptr) {
+Products runOn(ToyStages& toy, ProductStore* store, const Recipe& recipe,
+               PipelineListener* listener = nullptr) {
   Pipeline pipeline(store, {".", 0}, toy.table);
   Job job;
   return pipeline.run(recipe, kAll, job, listener);
 }
 
-double result(const Products& products) { return products.get<Number>("bounces")->value; }
+double result(const Products& products) {
+  return products.get<Number>("bounces")->value;
+}
 
 /// Which stages run again after an edit, everything else being in the store.
 struct EditCase {
@@ -68,20 +71,20 @@ TEST_P(Edits, RunExactlyWhatReadThem) {
   EXPECT_EQ(runs, GetParam().runs) << GetParam().path;
 }
 
-INSTANTIATE_TEST_SUITE_P(Pipeline, Edits,
-                         testing::Values(EditCase{"objects[0].name", "other", {}},
-                                         EditCase{"material.albedo", "0.9", {{"bounces", 1}}},
-                                         EditCase{"material.exponent", "900", {}},
-                                         EditCase{"transfer.bounces", "1", {{"bounces", 1}}},
-                                         EditCase{"transfer.bands", "4", {{"direct", 1}, {"bounces", 1}}},
-                                         EditCase{"transfer.rays", "128", {{"direct", 1}, {"bounces", 1}}},
-                                         EditCase{"transform.translate", "1,0,0", {{"direct", 1}, {"bounces", 1}}},
-                                         EditCase{"mesh.detail", "2", {{"mesh", 1}, {"direct", 1}, {"bounces", 1}}},
-                                         EditCase{"mesh.path", "builtin:bird", {{"mesh", 1}, {"direct", 1}, {"bounces", 1}}},
-                                         EditCase{"mesh.seed", "7", {}},       // the vase has no noise
-                                         EditCase{"mesh.crease", "30", {}},    // files only
-                                         EditCase{"lights[0].rotation", "90", {}},
-                                         EditCase{"method.name", "diffuse", {}}));
+INSTANTIATE_TEST_SUITE_P(
+    Pipeline, Edits,
+    testing::Values(EditCase{"objects[0].name", "other", {}},
+                    EditCase{"material.albedo", "0.9", {{"bounces", 1}}},
+                    EditCase{"material.exponent", "900", {}},
+                    EditCase{"transfer.bounces", "1", {{"bounces", 1}}},
+                    EditCase{"transfer.bands", "4", {{"direct", 1}, {"bounces", 1}}},
+                    EditCase{"transfer.rays", "128", {{"direct", 1}, {"bounces", 1}}},
+                    EditCase{"transform.translate", "1,0,0", {{"direct", 1}, {"bounces", 1}}},
+                    EditCase{"mesh.detail", "2", {{"mesh", 1}, {"direct", 1}, {"bounces", 1}}},
+                    EditCase{"mesh.path", "builtin:bird", {{"mesh", 1}, {"direct", 1}, {"bounces", 1}}},
+                    EditCase{"mesh.seed", "7", {}},     // the vase has no noise
+                    EditCase{"mesh.crease", "30", {}},  // files only
+                    EditCase{"lights[0].rotation", "90", {}}, EditCase{"method.name", "diffuse", {}}));
 
 TEST(Pipeline, UndoFindsTheOldProducts) {
   ToyStages toy;
@@ -102,8 +105,8 @@ TEST(Pipeline, PreviewsFlowDownstreamAndAreMarked) {
   Recipe recipe = small();
   recipe.transfer.rays = 48;
   runOn(toy, nullptr, recipe, &watcher);
-  EXPECT_THAT(watcher.heard, ElementsAre("mesh made", "frames made", "direct 1/3", "bounces 1/3", "direct 2/3",
-                                         "bounces 2/3", "direct made", "bounces made"));
+  EXPECT_THAT(watcher.heard, ElementsAre("mesh made", "frames made", "direct 1/3", "bounces 1/3",
+                                         "direct 2/3", "bounces 2/3", "direct made", "bounces made"));
 }
 
 TEST(Pipeline, PreviewsAreNoExcuseNotToFinish) {

@@ -1,11 +1,11 @@
-#include "libprt/core/error.h"
 #include "libprt/project/recipe.h"
+#include "libprt/core/error.h"
 #include "libprt/project/recipe_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -33,13 +33,20 @@ json randomValue(const Parameter& p) {
     return double(float(low + (high - low) * double(*rc::gen::inRange(0, 1 << 20)) / (1 << 20)));
   };
   switch (p.type) {
-    case ParameterType::Boolean: return *rc::gen::arbitrary<bool>();
-    case ParameterType::Integer: return std::int64_t(p.low + std::floor((p.high - p.low) * double(*rc::gen::inRange(0, 1 << 20)) / (1 << 20)));
-    case ParameterType::Number: return number();
-    case ParameterType::Choice: return *rc::gen::elementOf(p.choices);
+    case ParameterType::Boolean:
+      return *rc::gen::arbitrary<bool>();
+    case ParameterType::Integer:
+      return std::int64_t(p.low +
+                          std::floor((p.high - p.low) * double(*rc::gen::inRange(0, 1 << 20)) / (1 << 20)));
+    case ParameterType::Number:
+      return number();
+    case ParameterType::Choice:
+      return *rc::gen::elementOf(p.choices);
     case ParameterType::Color:
-    case ParameterType::Vector: return json{number(), number(), number()};
-    default: return *rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange<char>(' ', '~')));
+    case ParameterType::Vector:
+      return json{number(), number(), number()};
+    default:
+      return *rc::gen::nonEmpty(rc::gen::container<std::string>(rc::gen::inRange<char>(' ', '~')));
   }
 }
 
@@ -72,13 +79,16 @@ RC_GTEST_PROP(Recipe, EveryPathCanBeReadAndSet, ()) {
   copy.lights.resize(recipe.lights.size());
   copy.cameras.resize(recipe.cameras.size());
   for (const std::string& path : pathsOf(recipe)) {
-    if (path.ends_with(".eye") || path.ends_with(".target") || path.ends_with(".up")) continue;  // bound together
+    if (path.ends_with(".eye") || path.ends_with(".target") || path.ends_with(".up"))
+      continue;  // bound together
     setByPath(copy, path, getByPath(recipe, path).dump());
     RC_ASSERT(getByPath(copy, path) == getByPath(recipe, path));
   }
 }
 
-TEST(Recipe, DefaultsSurviveJson) { EXPECT_EQ(recipeFromJson(recipeToJson(Recipe{}), ""), Recipe{}); }
+TEST(Recipe, DefaultsSurviveJson) {
+  EXPECT_EQ(recipeFromJson(recipeToJson(Recipe{}), ""), Recipe{});
+}
 
 TEST(Recipe, FloatsPrintAsWritten) {
   Recipe recipe;
@@ -114,7 +124,9 @@ TEST(Recipe, AFailedEditChangesNothing) {
 
 TEST(Recipe, ErrorsNameTheNearestPath) {
   Recipe r;
-  const auto set = [&](const char* path, const char* value) { return errorOf([&] { setByPath(r, path, value); }); };
+  const auto set = [&](const char* path, const char* value) {
+    return errorOf([&] { setByPath(r, path, value); });
+  };
   EXPECT_THAT(set("transfer.bonces", "3"), HasSubstr("did you mean transfer.bounces?"));
   EXPECT_THAT(set("material.albdo", "1"), HasSubstr("did you mean material.albedo?"));
   EXPECT_THAT(set("mesh.pth", "x"), HasSubstr("did you mean mesh.path?"));

@@ -1,8 +1,8 @@
+#include "libprt/project/scenes.h"
 #include "libprt/core/error.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
-#include "libprt/project/scenes.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,8 @@ TEST_P(BuiltinScene, HasEverythingForAPicture) {
   EXPECT_GT(scene->scene->mesh.triangleCount(), 1000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BuiltinScene, testing::ValuesIn(builtinSceneNames()), [](const auto& p) { return p.param; });
+INSTANTIATE_TEST_SUITE_P(All, BuiltinScene, testing::ValuesIn(builtinSceneNames()),
+                         [](const auto& p) { return p.param; });
 
 TEST(Scenes, DefaultComesFirst) {
   EXPECT_EQ(builtinSceneNames().front(), "default");
@@ -66,7 +67,8 @@ TEST(Lights, AnglesAreFullAndInDegrees) {
   const LightRig rig = makeLightRig({&light, 1}, ".", cache);
   ASSERT_EQ(rig.circles.size(), 1u);
   EXPECT_NEAR(rig.circles[0].halfAngle, radians(55), 1e-6);
-  EXPECT_NEAR(length(rig.circles[0].direction - Vec3(-1, 0, 0)), 0, 1e-6) << "what came from -Z comes from -X";
+  EXPECT_NEAR(length(rig.circles[0].direction - Vec3(-1, 0, 0)), 0, 1e-6)
+      << "what came from -Z comes from -X";
   EXPECT_EQ(rig.circles[0].radiance, Rgb(2, 4, 6));
 }
 
@@ -115,7 +117,8 @@ TEST(Lights, TheSunStandsWhereTheRecipePutsIt) {
   EXPECT_LT(length(worldDirection(light) - expected), 1e-5f);
   light.rotation = 90;
   EXPECT_GT(dot(brightest(), expected), std::cos(0.015f)) << "the map does not turn with the light";
-  EXPECT_LT(length(worldDirection(light) - Vec3(0, 0.5f, std::cos(kPiF / 6))), 1e-5f) << "but the world's sun does";
+  EXPECT_LT(length(worldDirection(light) - Vec3(0, 0.5f, std::cos(kPiF / 6))), 1e-5f)
+      << "but the world's sun does";
 
   Recipe recipe;
   setByPath(recipe, "lights[0].sunElevation", "1");

@@ -8,7 +8,8 @@
 namespace prt {
 namespace {
 
-/// Every bench runs and gives numbers that make sense; how good they are is for `prt bench`, on a quiet machine.
+/// Every bench runs and gives numbers that make sense; how good they are is for `prt bench`, on a quiet
+/// machine.
 TEST(Bench, EveryBenchGivesAResult) {
   for (const BenchInfo& info : benches()) {
     Job job;

@@ -2,8 +2,12 @@
 
 namespace prt::test {
 
-std::filesystem::path sourceFolder() { return PRT_SOURCE_DIR; }
+std::filesystem::path sourceFolder() {
+  return PRT_SOURCE_DIR;
+}
 
-std::filesystem::path sharedDataFolder() { return PRT_SHARED_DATA; }
+std::filesystem::path sharedDataFolder() {
+  return PRT_SHARED_DATA;
+}
 
 }  // namespace prt::test

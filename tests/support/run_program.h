@@ -29,7 +29,8 @@ class Program {
   /// `arguments[0]` is a program of this build ("prt") or an absolute path.
   explicit Program(const std::vector<std::string>& arguments, const std::filesystem::path& folder = ".") {
     const std::string stem = (std::filesystem::temp_directory_path() /
-                              ("prt-run-" + std::to_string(::getpid()) + "-" + std::to_string(counter()++))).string();
+                              ("prt-run-" + std::to_string(::getpid()) + "-" + std::to_string(counter()++)))
+                                 .string();
     out_ = stem + ".out";
     err_ = stem + ".err";
     const std::filesystem::path bin = std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -96,7 +97,8 @@ class Program {
   std::string out_, err_;
 };
 
-inline ProgramResult run(const std::vector<std::string>& arguments, const std::filesystem::path& folder = ".") {
+inline ProgramResult run(const std::vector<std::string>& arguments,
+                         const std::filesystem::path& folder = ".") {
   return Program(arguments, folder).wait();
 }
 

@@ -92,12 +92,12 @@ inline TriMesh sphere(int rings, int segments, float radius = 1, Vec3 centre = V
 /// An axis-aligned box with flat sides: 24 vertices at n = 1, creased at every edge.
 inline TriMesh box(const Vec3& low, const Vec3& high, int n = 1) {
   const Vec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);
-  TriMesh mesh = grid(low, z, y, n, n);            // -x
-  append(mesh, grid(low + x, y, z, n, n));         // +x
-  append(mesh, grid(low, x, z, n, n));             // -y
-  append(mesh, grid(low + y, z, x, n, n));         // +y
-  append(mesh, grid(low, y, x, n, n));             // -z
-  append(mesh, grid(low + z, x, y, n, n));         // +z
+  TriMesh mesh = grid(low, z, y, n, n);     // -x
+  append(mesh, grid(low + x, y, z, n, n));  // +x
+  append(mesh, grid(low, x, z, n, n));      // -y
+  append(mesh, grid(low + y, z, x, n, n));  // +y
+  append(mesh, grid(low, y, x, n, n));      // -z
+  append(mesh, grid(low + z, x, y, n, n));  // +z
   return mesh;
 }
 
@@ -108,7 +108,7 @@ inline TriMesh deformed(TriMesh mesh, const std::function<Vec3(const Vec3&)>& ma
   for (const UVec3& t : mesh.triangles)
     for (int k = 0; k < 3; ++k) {
       const DVec3 p(mesh.positions[t[k]]), a = normalize(DVec3(mesh.positions[t[(k + 1) % 3]]) - p),
-                  b = normalize(DVec3(mesh.positions[t[(k + 2) % 3]]) - p);
+                                           b = normalize(DVec3(mesh.positions[t[(k + 2) % 3]]) - p);
       sum[t[k]] += std::acos(std::clamp(dot(a, b), -1.0, 1.0)) * normalize(cross(a, b));
     }
   for (std::size_t v = 0; v < sum.size(); ++v) mesh.normals[v] = Vec3(normalize(sum[v]));

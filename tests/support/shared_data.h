@@ -16,14 +16,16 @@ inline std::filesystem::path sharedData(const std::string& relative) {
   return sharedDataFolder() / relative;
 }
 
-inline bool sharedDataAbsent() { return !std::filesystem::exists(sharedDataFolder()); }
+inline bool sharedDataAbsent() {
+  return !std::filesystem::exists(sharedDataFolder());
+}
 
 }  // namespace prt::test
 
 /// First line of a test that reads ../shared/data.
-#define PRT_NEEDS_SHARED_DATA()                                                       \
-  if (prt::test::sharedDataAbsent()) {                                                \
-    if (std::getenv("CI")) FAIL() << "../shared/data must be present in CI";          \
-    GTEST_SKIP() << "needs ../shared/data, which is not here: " << prt::test::sharedDataFolder();   \
-  }                                                                                   \
+#define PRT_NEEDS_SHARED_DATA()                                                                   \
+  if (prt::test::sharedDataAbsent()) {                                                            \
+    if (std::getenv("CI")) FAIL() << "../shared/data must be present in CI";                      \
+    GTEST_SKIP() << "needs ../shared/data, which is not here: " << prt::test::sharedDataFolder(); \
+  }                                                                                               \
   static_assert(true)

@@ -1,5 +1,5 @@
-// Baked transfer against the path tracer, which shares nothing with it but rays and materials, on real meshes under
-// real probes.
+// Baked transfer against the path tracer, which shares nothing with it but rays and materials, on real meshes
+// under real probes.
 
 #include "libprt/core/sampling.h"
 #include "libprt/light/environment_io.h"
@@ -20,14 +20,15 @@ struct BandLimitedLight {
   ShRgb coefficients;
 
   explicit BandLimitedLight(const std::string& probe) {
-    const ShRgb light = nonNegativeLight(projectEnvironment(loadEnvironment(test::sharedData("probes/" + probe)), 5));
+    const ShRgb light =
+        nonNegativeLight(projectEnvironment(loadEnvironment(test::sharedData("probes/" + probe)), 5));
     rig.environment = std::make_shared<EnvironmentMap>(bandLimitedMap(light, 512, 256));
     coefficients = projectEnvironment(*rig.environment, 5);
   }
 };
 
-/// Transfer at some vertices with 4096 rays, which keep the bake's own noise near 0.1 %, so that what is left to see is
-/// bias; light bounces between vertices that have 1024.
+/// Transfer at some vertices with 4096 rays, which keep the bake's own noise near 0.1 %, so that what is left
+/// to see is bias; light bounces between vertices that have 1024.
 Transfer transferAt(const test::BakeInput& input, const std::vector<std::uint32_t>& indices, int bounces) {
   TransferSettings settings;
   settings.rays = 1024, settings.bounces = bounces, settings.stopThreshold = 0;
@@ -35,12 +36,15 @@ Transfer transferAt(const test::BakeInput& input, const std::vector<std::uint32_
   settings.rays = 4096;
   const test::BakeInput some = input.only(indices);
   Job job;
-  return finishTransfer(*input.scene, *input.rays, *some.samples, some.direct(directSettings(settings, TransferForm::Diffuse)), settings,
+  return finishTransfer(*input.scene, *input.rays, *some.samples,
+                        some.direct(directSettings(settings, TransferForm::Diffuse)), settings,
                         TransferForm::Diffuse, job, &vertices);
 }
 
-/// Relative RMS error of baked irradiance at the samples themselves; the references' noise cancels between them.
-double errorAtSamples(const test::BakeInput& input, const BandLimitedLight& light, const std::vector<std::uint32_t>& indices, int bounces) {
+/// Relative RMS error of baked irradiance at the samples themselves; the references' noise cancels between
+/// them.
+double errorAtSamples(const test::BakeInput& input, const BandLimitedLight& light,
+                      const std::vector<std::uint32_t>& indices, int bounces) {
   constexpr int kPaths = 4096;
   Job job;
   const PathTracer tracer(*input.scene, light.rig, job);
@@ -63,15 +67,19 @@ class BakeReference : public testing::TestWithParam<std::pair<std::string, std::
 TEST_P(BakeReference, SamplesAgreeWithThePathTracerWithin3PerMille) {
   PRT_NEEDS_SHARED_DATA();
   Job job;
-  const test::BakeInput input(loadMesh(test::sharedData("meshes/" + GetParam().first), {}, job), {0.7f, 0.5f, 0.3f});
+  const test::BakeInput input(loadMesh(test::sharedData("meshes/" + GetParam().first), {}, job),
+                              {0.7f, 0.5f, 0.3f});
   const BandLimitedLight light(GetParam().second);
   std::vector<std::uint32_t> indices;
-  for (std::uint64_t i = 0; i < 100; ++i) indices.push_back(std::uint32_t(hashUniform(3, i) * float(input.samples->size())));
-  for (const int bounces : {0, 3}) EXPECT_LT(errorAtSamples(input, light, indices, bounces), 0.003) << bounces << " bounces";
+  for (std::uint64_t i = 0; i < 100; ++i)
+    indices.push_back(std::uint32_t(hashUniform(3, i) * float(input.samples->size())));
+  for (const int bounces : {0, 3})
+    EXPECT_LT(errorAtSamples(input, light, indices, bounces), 0.003) << bounces << " bounces";
 }
 
 INSTANTIATE_TEST_SUITE_P(RealMeshes, BakeReference,
-                         testing::Values(std::pair{"bunny_3k.off", "grace_latlong.exr"}, std::pair{"spot.obj", "uffizi_256.hdr"}));
+                         testing::Values(std::pair{"bunny_3k.off", "grace_latlong.exr"},
+                                         std::pair{"spot.obj", "uffizi_256.hdr"}));
 
 }  // namespace
 }  // namespace prt

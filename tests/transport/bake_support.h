@@ -22,8 +22,11 @@ struct BakeInput {
 
   explicit BakeInput(Scene s) : BakeInput(std::make_shared<Scene>(std::move(s))) {}
   explicit BakeInput(std::shared_ptr<const Scene> s)
-      : scene(s), rays(std::make_shared<RayScene>(*s)), samples(std::make_shared<SampleSet>(samplesAtVertices(*s))) {}
-  explicit BakeInput(TriMesh mesh, Rgb albedo = Rgb(0.5f)) : BakeInput(sceneOf(std::move(mesh), lambert(albedo))) {}
+      : scene(s),
+        rays(std::make_shared<RayScene>(*s)),
+        samples(std::make_shared<SampleSet>(samplesAtVertices(*s))) {}
+  explicit BakeInput(TriMesh mesh, Rgb albedo = Rgb(0.5f))
+      : BakeInput(sceneOf(std::move(mesh), lambert(albedo))) {}
 
   /// Keeps some of the samples only, no longer as vertices.
   BakeInput only(std::span<const std::uint32_t> kept) const {
@@ -74,8 +77,8 @@ inline double relativeError(std::span<const float> a, std::span<const double> b)
   return std::sqrt(difference / norm);
 }
 
-/// Calls use(direction, weight) for a quadrature of the wedge of azimuths 0 to `opening` about `axis`, counted
-/// from `start` (a unit vector across the axis): accurate to rounding for polynomials of low degree.
+/// Calls use(direction, weight) for a quadrature of the wedge of azimuths 0 to `opening` about `axis`,
+/// counted from `start` (a unit vector across the axis): accurate to rounding for polynomials of low degree.
 template <class Use>
 void overWedge(const DVec3& axis, const DVec3& start, double opening, const Use& use) {
   const IntervalRule angles = gaussLegendre(40), turns = gaussLegendre(40);
@@ -83,7 +86,8 @@ void overWedge(const DVec3& axis, const DVec3& start, double opening, const Use&
   for (std::size_t i = 0; i < angles.nodes.size(); ++i)
     for (std::size_t j = 0; j < turns.nodes.size(); ++j) {
       const double theta = kPi / 2 * (angles.nodes[i] + 1), phi = opening / 2 * (turns.nodes[j] + 1);
-      const double weight = angles.weights[i] * kPi / 2 * std::sin(theta) * turns.weights[j] * std::abs(opening) / 2;
+      const double weight =
+          angles.weights[i] * kPi / 2 * std::sin(theta) * turns.weights[j] * std::abs(opening) / 2;
       use(axis * std::cos(theta) + (start * std::cos(phi) + side * std::sin(phi)) * std::sin(theta), weight);
     }
 }
@@ -119,8 +123,8 @@ inline float graded(float t, float small, float large) {
   return t <= 0 ? 0.0f : small * std::pow(large / small, t);
 }
 
-/// Two walls of an "infinite" dihedral with edge along z: the floor y = 0, x > 0, and a wall at `opening` radians
-/// from it; vertices get denser towards the edge and towards z = 0.
+/// Two walls of an "infinite" dihedral with edge along z: the floor y = 0, x > 0, and a wall at `opening`
+/// radians from it; vertices get denser towards the edge and towards z = 0.
 inline TriMesh dihedral(double opening, int n = 24) {
   const auto bend = [](TriMesh mesh, double angle) {
     for (Vec3& p : mesh.positions) {
@@ -138,6 +142,8 @@ inline TriMesh dihedral(double opening, int n = 24) {
 }
 
 /// Half a unit sphere open towards +Y, seen from inside: every point has the cosine fraction 1/2 of open sky.
-inline TriMesh bowl(int rings, int segments) { return sphere(rings, segments, 1, Vec3(0), 0, true); }
+inline TriMesh bowl(int rings, int segments) {
+  return sphere(rings, segments, 1, Vec3(0), 0, true);
+}
 
 }  // namespace prt::test

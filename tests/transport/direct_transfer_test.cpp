@@ -5,8 +5,8 @@
 #include "libprt/core/parallel.h"
 #include "tests/transport/bake_support.h"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include <atomic>
 #include <numeric>
@@ -62,7 +62,8 @@ TEST(DirectTransfer, OpenVectorsAreTheClampedCosine) {
     shEvaluate(5, DVec3(input.samples->shadingNormal[s]), y);
     for (int l = 0; l < 5; ++l)
       for (int i = shIndex(l, -l); i <= shIndex(l, l); ++i)
-        worst = std::max(worst, std::abs(rowOf(direct.diffuse, s)[std::size_t(i)] - a[std::size_t(l)] * y[std::size_t(i)]));
+        worst = std::max(worst, std::abs(rowOf(direct.diffuse, s)[std::size_t(i)] -
+                                         a[std::size_t(l)] * y[std::size_t(i)]));
   }
   EXPECT_LT(worst, 2e-5);
 }
@@ -74,7 +75,8 @@ TEST(DirectTransfer, DiscsAndHolesOverhead) {
     constexpr int kSegments = 720;
     for (int i = 0; i < kSegments; ++i) {
       const float phi = 2 * kPiF * float(i) / kSegments;
-      for (const float r : {inner, outer}) mesh.positions.push_back({r * std::cos(phi), height, r * std::sin(phi)});
+      for (const float r : {inner, outer})
+        mesh.positions.push_back({r * std::cos(phi), height, r * std::sin(phi)});
       const auto a = std::uint32_t(2 * i), c = std::uint32_t(2 * ((i + 1) % kSegments));
       mesh.triangles.push_back({a, a + 1, c});
       mesh.triangles.push_back({c, a + 1, c + 1});
@@ -88,8 +90,10 @@ TEST(DirectTransfer, DiscsAndHolesOverhead) {
       TriMesh mesh = grid({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2, 2);  // vertex 4 is the origin
       append(mesh, hole ? ring(t, 2000, 1) : ring(1e-6f, t, 1));
       const BakeInput input = BakeInput(mesh).only(4);
-      const double sine2 = std::pow(std::sin(radians(degrees)), 2), expected = kPi * (hole ? sine2 : 1 - sine2);
-      EXPECT_NEAR(irradianceUnderConstantSky(input.direct(settings(4096, false)), 0), expected, 0.012) << degrees << hole;
+      const double sine2 = std::pow(std::sin(radians(degrees)), 2),
+                   expected = kPi * (hole ? sine2 : 1 - sine2);
+      EXPECT_NEAR(irradianceUnderConstantSky(input.direct(settings(4096, false)), 0), expected, 0.012)
+          << degrees << hole;
       const DirectTransfer direct = input.direct(settings(4096));
       const double cap = 1 - std::cos(radians(degrees));  // of the hemisphere
       EXPECT_NEAR(trace(directMatrix(direct, 0)), 12.5 * (hole ? cap : 1 - cap), 0.05) << degrees << hole;
@@ -110,7 +114,8 @@ TEST(DirectTransfer, ABallTakesItsCapAway) {
     const auto p = [&](int k) { return k < 0 ? 1.0 : std::legendre(unsigned(k), c); };
     const double z = l == 0 ? std::sqrt(kPi) * (1 - c) : std::sqrt(kPi / (2 * l + 1)) * (p(l - 1) - p(l + 1));
     shEvaluate(9, DVec3(towards), y);
-    for (int m = -l; m <= l; ++m) cap[std::size_t(shIndex(l, m))] = std::sqrt(4 * kPi / (2 * l + 1)) * z * y[std::size_t(shIndex(l, m))];
+    for (int m = -l; m <= l; ++m)
+      cap[std::size_t(shIndex(l, m))] = std::sqrt(4 * kPi / (2 * l + 1)) * z * y[std::size_t(shIndex(l, m))];
   }
   gauntTensor(5, 5, 9).contract(std::span<const double>(cap), gram);
   for (std::size_t i = 0; i < 625; ++i) expected[i] -= gram[i];
@@ -124,10 +129,14 @@ TEST(DirectTransfer, DihedralsOfAnyOpening) {
     const BakeInput input(test::dihedral(a, 6));
     const DirectTransfer direct = input.direct(settings(4096)), diffuse = input.direct(settings(4096, false));
     const std::size_t half = direct.samples() / 2;
-    for (const std::size_t s : {6 * 7 + std::size_t(0), 6 * 7 + std::size_t(2), half + 6 * 7, half + 6 * 7 + 2}) {
+    for (const std::size_t s :
+         {6 * 7 + std::size_t(0), 6 * 7 + std::size_t(2), half + 6 * 7, half + 6 * 7 + 2}) {
       ASSERT_NEAR(input.scene->mesh.positions[s].z, 0, 1e-3f);
-      EXPECT_NEAR(irradianceUnderConstantSky(diffuse, s) / kPi, (1 - std::cos(a)) / 2, 0.006) << degrees << " " << s;
-      EXPECT_LT(relativeError(directMatrix(direct, s), test::wedgeTransfer(5, {0, 0, -1}, {1, 0, 0}, -a)), 0.01) << degrees << " " << s;
+      EXPECT_NEAR(irradianceUnderConstantSky(diffuse, s) / kPi, (1 - std::cos(a)) / 2, 0.006)
+          << degrees << " " << s;
+      EXPECT_LT(relativeError(directMatrix(direct, s), test::wedgeTransfer(5, {0, 0, -1}, {1, 0, 0}, -a)),
+                0.01)
+          << degrees << " " << s;
     }
   }
 }
@@ -145,7 +154,8 @@ TEST(DirectTransfer, CubeCorner) {
     for (std::size_t j = 0; j < 40; ++j) {
       const double z = (rule.nodes[i] + 1) / 2, phi = kPi / 4 * (rule.nodes[j] + 1), r = std::sqrt(1 - z * z);
       shEvaluate(5, DVec3(r * std::cos(phi), r * std::sin(phi), z), y);
-      for (std::size_t k = 0; k < 625; ++k) octant[k] += rule.weights[i] * rule.weights[j] * kPi / 8 * y[k / 25] * y[k % 25];
+      for (std::size_t k = 0; k < 625; ++k)
+        octant[k] += rule.weights[i] * rule.weights[j] * kPi / 8 * y[k / 25] * y[k % 25];
     }
   for (std::size_t s = 0; s < 12; s += 4) {
     EXPECT_NEAR(irradianceUnderConstantSky(diffuse, s) / kPi, 0.25, 0.004);
@@ -169,11 +179,13 @@ TEST(DirectTransfer, MatricesKeepTheirInvariants) {
 
 TEST(DirectTransfer, TurningTheSceneTurnsTheMatrices) {
   const TriMesh mesh = rock(16);
-  const glm::mat3 r = Frame{normalize(Vec3(1, 2, 2)), normalize(Vec3(-2, -1, 2)), normalize(Vec3(2, -2, 1))}.matrix();
+  const glm::mat3 r =
+      Frame{normalize(Vec3(1, 2, 2)), normalize(Vec3(-2, -1, 2)), normalize(Vec3(2, -2, 1))}.matrix();
   TriMesh turned = mesh;
   for (Vec3& p : turned.positions) p = r * p;
   for (Vec3& n : turned.normals) n = r * n;
-  const DirectTransfer a = BakeInput(mesh).direct(settings(4096)), b = BakeInput(turned).direct(settings(4096));
+  const DirectTransfer a = BakeInput(mesh).direct(settings(4096)),
+                       b = BakeInput(turned).direct(settings(4096));
   const ShRotation rotation(9, r);
   double error = 0, norm = 0;
   std::vector<float> expected(81);
@@ -196,7 +208,8 @@ TEST(DirectTransfer, AgreesWithPlainRankOneUpdates) {
     const Frame frame = frameFromNormal(input.samples->geometricNormal[s]);
     std::vector<double> t(625, 0), e(25, 0), y(25);
     for (int i = 0; i < kRays; ++i) {
-      const double z = (i + 0.5) / kRays, phi = 2 * kPi * std::fmod(i * 0.6180339887498949, 1.0), r = std::sqrt(1 - z * z);
+      const double z = (i + 0.5) / kRays, phi = 2 * kPi * std::fmod(i * 0.6180339887498949, 1.0),
+                   r = std::sqrt(1 - z * z);
       const Vec3 d = frame.toWorld(Vec3(r * std::cos(phi), r * std::sin(phi), z));
       if (input.rays->occluded({input.samples->origin[s], 0, d})) continue;
       shEvaluate(5, DVec3(d), y);
@@ -209,8 +222,8 @@ TEST(DirectTransfer, AgreesWithPlainRankOneUpdates) {
   }
 }
 
-/// Relative Frobenius error of T_0 for half of the hemisphere blocked, root mean square over independent sets.
-/// The best of the literature's sets for this has 8.7, 2.6 and 0.77 % at these counts.
+/// Relative Frobenius error of T_0 for half of the hemisphere blocked, root mean square over independent
+/// sets. The best of the literature's sets for this has 8.7, 2.6 and 0.77 % at these counts.
 TEST(DirectTransfer, SamplingErrorFallsAsItShould) {
   const BakeInput input(test::dihedral(kPi / 2, 4));
   const std::vector<double> exact = test::wedgeTransfer(5, {0, 0, -1}, {1, 0, 0}, -kPi / 2);
@@ -229,7 +242,8 @@ TEST(DirectTransfer, SamplingErrorFallsAsItShould) {
 }
 
 bool sameBits(const DirectTransfer& a, const DirectTransfer& b) {
-  return a.diffuse.bytes == b.diffuse.bytes && a.visibility.bytes == b.visibility.bytes && a.buried.bytes == b.buried.bytes;
+  return a.diffuse.bytes == b.diffuse.bytes && a.visibility.bytes == b.visibility.bytes &&
+         a.buried.bytes == b.buried.bytes;
 }
 
 TEST(DirectTransfer, BitsDoNotDependOnThreadsOrOnRememberingHits) {
@@ -256,9 +270,11 @@ TEST(DirectTransfer, AnInterruptedBakeEndsInTheSameBits) {
       if (!saved.empty()) bake.restore(saved);
       int heard = 0;
       Job* self = nullptr;
-      Job job([&](const Progress&) {
-        if (++heard > 2) self->cancel();
-      }, 1e9);
+      Job job(
+          [&](const Progress&) {
+            if (++heard > 2) self->cancel();
+          },
+          1e9);
       self = &job;
       try {
         while (!bake.done()) bake.advance(job);
@@ -358,9 +374,11 @@ TEST(DirectTransfer, LevelsStartQuickAndEveryOneHasAProduct) {
 
 TEST(DirectTransfer, SettingsOutOfRangeAreRefused) {
   const BakeInput input(rock(16));
-  for (const DirectSettings& s : {settings(0), settings(-5), settings(kMaxRays + 1), settings(64, true, 0), settings(64, true, 11)})
+  for (const DirectSettings& s :
+       {settings(0), settings(-5), settings(kMaxRays + 1), settings(64, true, 0), settings(64, true, 11)})
     EXPECT_THROW(DirectBake(input.scene, input.rays, input.samples, s), ValueError);
-  EXPECT_THROW(DirectBake(input.scene, input.rays, std::make_shared<SampleSet>(), settings(64)), GeometryError);
+  EXPECT_THROW(DirectBake(input.scene, input.rays, std::make_shared<SampleSet>(), settings(64)),
+               GeometryError);
 }
 
 TEST(DirectTransfer, OriginsThatAreNotFiniteAreCountedAndHarmless) {

@@ -16,11 +16,13 @@ TransferSettings settings(int rays, int bounces) {
   return s;
 }
 
-InterpolationFloor measure(const BakeInput& input, const TransferSettings& s, std::size_t points, std::span<const ShRgb> lights = {}) {
+InterpolationFloor measure(const BakeInput& input, const TransferSettings& s, std::size_t points,
+                           std::span<const ShRgb> lights = {}) {
   Job job;
   FloorOptions options;
   options.points = points;
-  return measureInterpolationFloor(input.scene, input.rays, *input.samples, input.transfer(s), s, lights, job, options);
+  return measureInterpolationFloor(input.scene, input.rays, *input.samples, input.transfer(s), s, lights, job,
+                                   options);
 }
 
 /// The definition with so many rays that their noise does not matter.
@@ -32,7 +34,8 @@ double plainFloor(const BakeInput& input, int bounces, std::size_t points, const
   BakeInput free = input;
   free.samples = std::make_shared<SampleSet>(places);
   const DirectTransfer direct = free.direct(directSettings(s, TransferForm::Diffuse));
-  const Transfer truth = finishTransfer(*input.scene, *input.rays, places, direct, s, TransferForm::Diffuse, job, &vertices);
+  const Transfer truth =
+      finishTransfer(*input.scene, *input.rays, places, direct, s, TransferForm::Diffuse, job, &vertices);
   const std::vector<Rgb> a = irradiance(vertices, light, {}), r = irradiance(truth, light, {});
   double error = 0, norm = 0;
   for (std::size_t i = 0; i < points; ++i) {
@@ -59,8 +62,10 @@ TEST(InterpolationFloor, IsWhatItsDefinitionGives) {
 /// Few rays add sampling error to the product, none to the floor.
 TEST(InterpolationFloor, SamplingNoiseIsKeptApart) {
   const BakeInput input(test::rock(32), Rgb(0.6f));
-  const InterpolationFloor few = measure(input, settings(8, 1), 1500), many = measure(input, settings(2048, 1), 1500);
-  EXPECT_NEAR(few.interpolation, many.interpolation, 4 * std::hypot(few.interpolationError, many.interpolationError));
+  const InterpolationFloor few = measure(input, settings(8, 1), 1500),
+                           many = measure(input, settings(2048, 1), 1500);
+  EXPECT_NEAR(few.interpolation, many.interpolation,
+              4 * std::hypot(few.interpolationError, many.interpolationError));
   EXPECT_GT(few.sampling, 0.03);
   EXPECT_LT(many.sampling, 0.2 * few.sampling);
   EXPECT_NEAR(few.product, std::hypot(few.interpolation, few.sampling), 1e-9);
@@ -87,10 +92,12 @@ TEST(InterpolationFloor, PartsThatDoNotFitAreRefused) {
   Job job;
   const TransferSettings s = settings(64, 0);
   const Transfer transfer = input.transfer(s);
-  EXPECT_THROW(measureInterpolationFloor(other.scene, other.rays, *other.samples, transfer, s, {}, job), ValueError);
+  EXPECT_THROW(measureInterpolationFloor(other.scene, other.rays, *other.samples, transfer, s, {}, job),
+               ValueError);
   FloorOptions few;
   few.points = 3;
-  EXPECT_THROW(measureInterpolationFloor(input.scene, input.rays, *input.samples, transfer, s, {}, job, few), ValueError);
+  EXPECT_THROW(measureInterpolationFloor(input.scene, input.rays, *input.samples, transfer, s, {}, job, few),
+               ValueError);
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ Hit slowHit(const TriMesh& mesh, const Vec3& origin, const Vec3& direction) {
   const DVec3 o(origin), d(direction);
   for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
     const UVec3& c = mesh.triangles[t];
-    const DVec3 a(mesh.positions[c.x]), e1 = DVec3(mesh.positions[c.y]) - a, e2 = DVec3(mesh.positions[c.z]) - a;
+    const DVec3 a(mesh.positions[c.x]), e1 = DVec3(mesh.positions[c.y]) - a,
+                                        e2 = DVec3(mesh.positions[c.z]) - a;
     const DVec3 p = cross(d, e2);
     const double det = dot(e1, p);
     if (det == 0) continue;
@@ -102,8 +103,8 @@ TEST(RayScene, ARayDoesNotDependOnItsNeighboursInThePacket) {
   }
 }
 
-/// Rays at vertices and at middles of edges meet several triangles at once: the choice must be the same in every
-/// build, or interpolated values, and with them the bits of a bake, would change from run to run.
+/// Rays at vertices and at middles of edges meet several triangles at once: the choice must be the same in
+/// every build, or interpolated values, and with them the bits of a bake, would change from run to run.
 TEST(RayScene, EveryBuildChoosesTheSameTriangles) {
   const Scene scene = sceneOf(rock(120));
   std::vector<std::uint32_t> first;
@@ -114,7 +115,8 @@ TEST(RayScene, EveryBuildChoosesTheSameTriangles) {
     for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); t += 3) {
       const UVec3& c = scene.mesh.triangles[t];
       const Vec3 n = scene.mesh.normals[c.x];
-      for (const Vec3& p : {scene.mesh.positions[c.x], 0.5f * (scene.mesh.positions[c.x] + scene.mesh.positions[c.y])})
+      for (const Vec3& p :
+           {scene.mesh.positions[c.x], 0.5f * (scene.mesh.positions[c.x] + scene.mesh.positions[c.y])})
         chosen.push_back(rays.intersect({p + 0.3f * n, 0, -n}).triangle);
     }
     if (build == 0) first = chosen;
@@ -127,9 +129,15 @@ TEST(RayScene, RefusesAndCountsRaysThatEmbreeWouldDieOf) {
   const Scene scene = sceneOf(grid({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 1, 1));
   const RayScene rays(scene);
   const Vec3 above(0, 1, 0), down(0, -1, 0);
-  const std::array<Ray, 9> bad{{{{kNaN, 1, 0}, 0, down}, {{0, kInf, 0}, 0, down}, {above, 0, {0, kNaN, 0}},
-                                {above, 0, {0, -kInf, 0}}, {above, kNaN, down}, {above, -1, down},
-                                {above, 0, Vec3(0)}, {above, 0, down, kNaN}, {{1e30f, 0, 0}, 0, down}}};
+  const std::array<Ray, 9> bad{{{{kNaN, 1, 0}, 0, down},
+                                {{0, kInf, 0}, 0, down},
+                                {above, 0, {0, kNaN, 0}},
+                                {above, 0, {0, -kInf, 0}},
+                                {above, kNaN, down},
+                                {above, -1, down},
+                                {above, 0, Vec3(0)},
+                                {above, 0, down, kNaN},
+                                {{1e30f, 0, 0}, 0, down}}};
   for (const Ray& ray : bad) {
     EXPECT_FALSE(rays.occluded(ray));
     EXPECT_FALSE(rays.intersect(ray).valid());
@@ -191,7 +199,8 @@ TEST(RayScene, OffsetOriginsLeaveTheirSurface) {
       int wrong = 0;
       for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); ++t) {
         const UVec3& c = scene.mesh.triangles[t];
-        const Vec3 p = (scene.mesh.positions[c.x] + scene.mesh.positions[c.y] + scene.mesh.positions[c.z]) / 3.0f;
+        const Vec3 p =
+            (scene.mesh.positions[c.x] + scene.mesh.positions[c.y] + scene.mesh.positions[c.z]) / 3.0f;
         const Vec3 n = normalize(scene.mesh.areaNormal(t));
         const Vec3 origin = offsetOrigin(p, n, rays.size());
         EXPECT_LT(length(origin - p), 6e-5f * (scale + length(p)));
@@ -214,7 +223,8 @@ TEST(RayScene, TightOffsetsLeaveTheirSurfaceAndStayClose) {
       int wrong = 0;
       for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); ++t) {
         const UVec3& c = scene.mesh.triangles[t];
-        const Vec3 corner[3] = {scene.mesh.positions[c.x], scene.mesh.positions[c.y], scene.mesh.positions[c.z]};
+        const Vec3 corner[3] = {scene.mesh.positions[c.x], scene.mesh.positions[c.y],
+                                scene.mesh.positions[c.z]};
         const Vec3 n = normalize(scene.mesh.areaNormal(t));
         for (std::uint64_t i = 0; i < 32; ++i) {
           Vec2 b(hashUniform(7, i, 0), hashUniform(7, i, 1));

@@ -34,7 +34,8 @@ double blockedShare(const RayScene& rays, const SampleSet& set, std::size_t s, i
 }
 
 TEST(SamplesAtVertices, ConvexBodiesBlockNothing) {
-  for (const TriMesh& mesh : {sphere(12, 24), box(Vec3(-1), Vec3(1), 3), sphere(40, 80, 1e-3f, Vec3(5, -3, 2))}) {
+  for (const TriMesh& mesh :
+       {sphere(12, 24), box(Vec3(-1), Vec3(1), 3), sphere(40, 80, 1e-3f, Vec3(5, -3, 2))}) {
     const Scene scene = sceneOf(mesh);
     const RayScene rays(scene);
     const SampleSet set = samplesAtVertices(scene);
@@ -59,7 +60,8 @@ TEST(SamplesAtVertices, NormalsAndPlacesAreThoseOfTheVertex) {
 TEST(SamplesAtVertices, CreasesKeepTheirFlatSides) {
   const Scene scene = sceneOf(box(Vec3(-1), Vec3(1), 2));
   const SampleSet set = samplesAtVertices(scene);
-  for (std::size_t v = 0; v < set.size(); ++v) EXPECT_GT(dot(set.geometricNormal[v], scene.mesh.normals[v]), 0.999999f);
+  for (std::size_t v = 0; v < set.size(); ++v)
+    EXPECT_GT(dot(set.geometricNormal[v], scene.mesh.normals[v]), 0.999999f);
 }
 
 TEST(SamplesAtVertices, TextureSeamsMakeNoDifference) {
@@ -98,16 +100,17 @@ TEST(SamplesAtVertices, VerticesInACornerSeeTheOtherSide) {
 TEST(SamplesAtVertices, SharpValleysAreLeftOnTheirOuterSide) {
   for (const double halfOpening : {0.5, 2.0, 10.0}) {  // degrees
     const float s = float(std::sin(radians(halfOpening))), c = float(std::cos(radians(halfOpening)));
-    TriMesh mesh = grid({0, 0, -64}, {0, 0, 128}, Vec3(s, c, 0) * 10.0f, 16, 4);     // faces -x
-    append(mesh, grid({0, 0, -64}, Vec3(-s, c, 0) * 10.0f, {0, 0, 128}, 4, 16));     // faces +x
+    TriMesh mesh = grid({0, 0, -64}, {0, 0, 128}, Vec3(s, c, 0) * 10.0f, 16, 4);  // faces -x
+    append(mesh, grid({0, 0, -64}, Vec3(-s, c, 0) * 10.0f, {0, 0, 128}, 4, 16));  // faces +x
     const Scene scene = sceneOf(mesh);
     const RayScene rays(scene);
     const SampleSet set = samplesAtVertices(scene);
     for (std::size_t v = 3; v < 14; ++v) {
       ASSERT_EQ(scene.mesh.positions[v].y, 0);
-      const Hit left = rays.intersect({set.origin[v], 0, {-1, 0, 0}}), right = rays.intersect({set.origin[v], 0, {1, 0, 0}});
+      const Hit left = rays.intersect({set.origin[v], 0, {-1, 0, 0}}),
+                right = rays.intersect({set.origin[v], 0, {1, 0, 0}});
       ASSERT_TRUE(left.valid() && right.valid());
-      EXPECT_GT(scene.mesh.areaNormal(left.triangle).x, 0);   // the fronts of both sides
+      EXPECT_GT(scene.mesh.areaNormal(left.triangle).x, 0);  // the fronts of both sides
       EXPECT_LT(scene.mesh.areaNormal(right.triangle).x, 0);
     }
   }
@@ -174,7 +177,8 @@ TEST(SamplesOnSurface, DensityFollowsAreaAndPointsLieOnTheSurface) {
     const UVec3& t = scene.mesh.triangles[set.triangle[i]];
     const Vec2 b = set.barycentric[i];
     EXPECT_GE(std::min({b.x, b.y, 1 - b.x - b.y}), -1e-6f);
-    const Vec3 p = (1 - b.x - b.y) * scene.mesh.positions[t.x] + b.x * scene.mesh.positions[t.y] + b.y * scene.mesh.positions[t.z];
+    const Vec3 p = (1 - b.x - b.y) * scene.mesh.positions[t.x] + b.x * scene.mesh.positions[t.y] +
+                   b.y * scene.mesh.positions[t.z];
     EXPECT_LT(length(p - set.origin[i]), 2e-5f * scene.mesh.bounds().diagonal());
     EXPECT_GT(set.origin[i].z, 0);
   }

@@ -3,8 +3,8 @@
 #include "libprt/core/error.h"
 #include "tests/support/scenes.h"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace prt {
 namespace {
@@ -32,7 +32,8 @@ void expectNormalsFaceOut(const TriMesh& mesh) {
 }
 
 TEST(Scene, ObjectsFollowEachOtherWithTheirMaterials) {
-  std::vector<SceneObject> objects{object(box(Vec3(0), Vec3(1))), object(grid(Vec3(0), {1, 0, 0}, {0, 1, 0}, 2, 2))};
+  std::vector<SceneObject> objects{object(box(Vec3(0), Vec3(1))),
+                                   object(grid(Vec3(0), {1, 0, 0}, {0, 1, 0}, 2, 2))};
   objects[1].material.albedo = Rgb(0.25f);
   const Scene scene = flattenScene(objects);
   EXPECT_EQ(scene.mesh.vertexCount(), 24u + 9u);

@@ -19,11 +19,13 @@ std::vector<float> randomNumbers(std::size_t count, std::uint64_t seed) {
 ShRgb randomLight(int bands) {
   ShRgb light(bands);
   const std::vector<float> numbers = randomNumbers(light.c.size() * 3, 7);
-  for (std::size_t k = 0; k < light.c.size(); ++k) light.c[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
+  for (std::size_t k = 0; k < light.c.size(); ++k)
+    light.c[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
   return light;
 }
 
-Transfer matrixTransfer(std::size_t samples, int channels, int bands, DType storage, std::vector<float>& dense) {
+Transfer matrixTransfer(std::size_t samples, int channels, int bands, DType storage,
+                        std::vector<float>& dense) {
   const auto n = std::size_t(shCount(bands));
   dense = randomNumbers(samples * n * n * std::size_t(channels), 3);
   Transfer transfer;
@@ -34,13 +36,15 @@ Transfer matrixTransfer(std::size_t samples, int channels, int bands, DType stor
 }
 
 /// The definition, in double.
-std::vector<DVec3> plainProduct(std::span<const float> dense, std::size_t samples, std::size_t channels, std::size_t n, const ShRgb& light) {
+std::vector<DVec3> plainProduct(std::span<const float> dense, std::size_t samples, std::size_t channels,
+                                std::size_t n, const ShRgb& light) {
   std::vector<DVec3> result(samples * n, DVec3(0));
   for (std::size_t s = 0; s < samples; ++s)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < std::min(n, light.c.size()); ++j)
         for (std::size_t c = 0; c < 3; ++c)
-          result[s * n + i][int(c)] += double(dense[((s * n + i) * n + j) * channels + (channels == 3 ? c : 0)]) * light.c[j][int(c)];
+          result[s * n + i][int(c)] +=
+              double(dense[((s * n + i) * n + j) * channels + (channels == 3 ? c : 0)]) * light.c[j][int(c)];
   return result;
 }
 
@@ -59,14 +63,17 @@ TEST(TransferApply, MatricesMultiplyAsTheyShould) {
         const ShRgb light = randomLight(bands);
         const Transfer transfer = matrixTransfer(samples, channels, bands, DType::f32, dense);
         const std::vector<DVec3> expected = plainProduct(dense, samples, std::size_t(channels), n, light);
-        EXPECT_LT(worst(transferredRadiance(transfer, light), expected), 1e-5) << channels << bands << samples;
+        EXPECT_LT(worst(transferredRadiance(transfer, light), expected), 1e-5)
+            << channels << bands << samples;
         std::vector<Rgb> into(samples * n, Rgb(99));
         transferredRadiance(transfer, light, into);
         EXPECT_LT(worst(into, expected), 1e-5);
         // In half precision the same, of the rounded matrices.
         const Transfer half = matrixTransfer(samples, channels, bands, DType::f16, dense);
         for (float& x : dense) x = fromHalf(toHalf(x));
-        EXPECT_LT(worst(transferredRadiance(half, light), plainProduct(dense, samples, std::size_t(channels), n, light)), 1e-5);
+        EXPECT_LT(worst(transferredRadiance(half, light),
+                        plainProduct(dense, samples, std::size_t(channels), n, light)),
+                  1e-5);
       }
 }
 
@@ -76,7 +83,8 @@ TEST(TransferApply, WideAndNarrowKernelsAgree) {
   for (const std::size_t channels : {1, 3})
     for (const std::size_t n : {1, 4, 9, 16, 25, 36, 49, 64, 81, 100}) {
       constexpr std::size_t kSamples = 7;
-      const std::vector<float> floats = randomNumbers(kSamples * channels * n * n + kKernelOverread, 11), light = randomNumbers(n * 3, 12);
+      const std::vector<float> floats = randomNumbers(kSamples * channels * n * n + kKernelOverread, 11),
+                               light = randomNumbers(n * 3, 12);
       std::vector<std::uint16_t> halves(floats.size());
       toHalf(floats, halves);
       const auto result = [&](const auto& run) {
@@ -85,10 +93,10 @@ TEST(TransferApply, WideAndNarrowKernelsAgree) {
         EXPECT_EQ(out.back(), 77.0f);  // nothing is written beyond
         return out;
       };
-      const auto wide = result([&](const MatrixProduct& p) { multiplyMatricesWide(floats.data(), p); }),
-                 narrow = result([&](const MatrixProduct& p) { multiplyMatrices(floats.data(), p); }),
-                 wideHalf = result([&](const MatrixProduct& p) { multiplyMatricesWide(halves.data(), p); }),
-                 narrowHalf = result([&](const MatrixProduct& p) { multiplyMatrices(halves.data(), p); });
+      const auto wide = result([&](const MatrixProduct&p) { multiplyMatricesWide(floats.data(), p); }),
+                 narrow = result([&](const MatrixProduct&p) { multiplyMatrices(floats.data(), p); }),
+                 wideHalf = result([&](const MatrixProduct&p) { multiplyMatricesWide(halves.data(), p); }),
+                 narrowHalf = result([&](const MatrixProduct&p) { multiplyMatrices(halves.data(), p); });
       for (std::size_t i = 0; i < wide.size(); ++i) {
         EXPECT_NEAR(wide[i], narrow[i], 1e-5f);
         EXPECT_NEAR(wideHalf[i], narrowHalf[i], 1e-5f);
@@ -114,10 +122,14 @@ TEST(TransferApply, VisibilityActsAsItsExpandedMatrix) {
     Transfer transfer;
     transfer.form = TransferForm::Visibility;
     transfer.bands = bands, transfer.samples = 300;
-    transfer.values = Array::from(std::span<const float>(randomNumbers(300 * wide, 5)), {300, std::int64_t(wide)});
+    transfer.values =
+        Array::from(std::span<const float>(randomNumbers(300 * wide, 5)), {300, std::int64_t(wide)});
     const ShRgb light = randomLight(bands);
     const Array expanded = expandedMatrices(transfer);
-    EXPECT_LT(worst(transferredRadiance(transfer, light), plainProduct(expanded.as<float>(), 300, 1, n, light)), 2e-5) << bands;
+    EXPECT_LT(
+        worst(transferredRadiance(transfer, light), plainProduct(expanded.as<float>(), 300, 1, n, light)),
+        2e-5)
+        << bands;
   }
 }
 
@@ -154,11 +166,14 @@ TEST(TransferApply, VectorsMultiplyAsTheyShould) {
     Transfer transfer;
     transfer.form = TransferForm::Diffuse;
     transfer.channels = channels, transfer.samples = 50;
-    transfer.values = Array::from(std::span<const float>(e), channels == 3 ? std::vector<std::int64_t>{50, 25, 3} : std::vector<std::int64_t>{50, 25});
+    transfer.values =
+        Array::from(std::span<const float>(e),
+                    channels == 3 ? std::vector<std::int64_t>{50, 25, 3} : std::vector<std::int64_t>{50, 25});
     std::vector<DVec3> expected(50, DVec3(0));
     for (std::size_t i = 0; i < 50 * 25; ++i)
       for (int c = 0; c < 3; ++c)
-        expected[i / 25][c] += double(e[i * std::size_t(channels) + (channels == 3 ? std::size_t(c) : 0)]) * light.c[i % 25][c];
+        expected[i / 25][c] +=
+            double(e[i * std::size_t(channels) + (channels == 3 ? std::size_t(c) : 0)]) * light.c[i % 25][c];
     EXPECT_LT(worst(irradiance(transfer, light, {}), expected), 1e-5);
     transfer.form = TransferForm::Matrix;  // whose vectors lie beside
     transfer.diffuse = transfer.values;
@@ -174,17 +189,22 @@ TEST(TransferApply, SomeSamplesOnlyAreTheSameNumbers) {
   const test::BakeInput input(test::rock(20));
   const std::vector<std::uint32_t> some{5, 77, 3, 3, 100, 18, 17, 16};
   const ShRgb light = randomLight(5);
-  for (const TransferForm form : {TransferForm::None, TransferForm::Diffuse, TransferForm::Visibility, TransferForm::Matrix}) {
+  for (const TransferForm form :
+       {TransferForm::None, TransferForm::Diffuse, TransferForm::Visibility, TransferForm::Matrix}) {
     TransferSettings s;
-    s.form = form, s.rays = 64, s.bounces = form == TransferForm::Matrix ? 1 : 0, s.shadows = form != TransferForm::None;
+    s.form = form, s.rays = 64, s.bounces = form == TransferForm::Matrix ? 1 : 0,
+    s.shadows = form != TransferForm::None;
     const Transfer transfer = input.transfer(s);
     const std::vector<Rgb> all = irradiance(transfer, light, input.samples->shadingNormal),
                            few = irradiance(transfer, light, input.samples->shadingNormal, some);
     for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(few[i], all[some[i]]);
-    EXPECT_THROW(irradiance(transfer, light, input.samples->shadingNormal, std::vector<std::uint32_t>{99999}), ValueError);
+    EXPECT_THROW(irradiance(transfer, light, input.samples->shadingNormal, std::vector<std::uint32_t>{99999}),
+                 ValueError);
     if (form == TransferForm::Diffuse) continue;
-    const std::vector<Rgb> allRadiance = transferredRadiance(transfer, light), fewRadiance = transferredRadiance(transfer, light, some);
-    for (std::size_t i = 0; i < fewRadiance.size(); ++i) EXPECT_EQ(fewRadiance[i], allRadiance[some[i / 25] * 25 + i % 25]);
+    const std::vector<Rgb> allRadiance = transferredRadiance(transfer, light),
+                           fewRadiance = transferredRadiance(transfer, light, some);
+    for (std::size_t i = 0; i < fewRadiance.size(); ++i)
+      EXPECT_EQ(fewRadiance[i], allRadiance[some[i / 25] * 25 + i % 25]);
   }
 }
 

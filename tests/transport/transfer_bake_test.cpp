@@ -45,7 +45,8 @@ Rgb surfaceMean(const TriMesh& mesh, std::span<const Rgb> values) {
 Scene twoObjects(Rgb rockAlbedo, Rgb ballAlbedo) {
   const std::vector<SceneObject> objects{
       {"rock", std::make_shared<TriMesh>(rock(12)), Mat4(1), lambert(rockAlbedo)},
-      {"ball", std::make_shared<TriMesh>(test::sphere(6, 12, 0.5f, {1.6f, 0, 0})), Mat4(1), lambert(ballAlbedo)}};
+      {"ball", std::make_shared<TriMesh>(test::sphere(6, 12, 0.5f, {1.6f, 0, 0})), Mat4(1),
+       lambert(ballAlbedo)}};
   return flattenScene(objects);
 }
 
@@ -75,7 +76,8 @@ TEST(Bounces, BowlSpreadsBouncesEvenly) {
   const ShRgb light = lobeLight({0.7f, 1, 0.2f});
   const std::vector<Rgb> direct = irradianceOf(input, input.transfer(settings(1024, 0)), light),
                          all = irradianceOf(input, input.transfer(settings(1024, 60)), light);
-  const Rgb mean = surfaceMean(input.scene->mesh, direct), expected = 0.5f * albedo * mean / (1.0f - 0.5f * albedo);
+  const Rgb mean = surfaceMean(input.scene->mesh, direct),
+            expected = 0.5f * albedo * mean / (1.0f - 0.5f * albedo);
   for (std::size_t v = 48; v < all.size(); v += 7)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR((all[v] - direct[v])[c], expected[c], 0.015f * mean[c]) << v;
 }
@@ -89,7 +91,8 @@ TEST(Bounces, WallsOfACornerHaveConstantRadiosity) {
     for (std::size_t v = 0; v < e.size(); ++v) {
       const Vec3 p = input.scene->mesh.positions[v];
       if (length(p) > 5) continue;
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[v][c] / kPi, f / (1 - albedo[c] * (1 - f)), 0.012) << degrees << " " << v;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(e[v][c] / kPi, f / (1 - albedo[c] * (1 - f)), 0.012) << degrees << " " << v;
     }
   }
 }
@@ -116,11 +119,13 @@ TEST(Bounces, BacksReflectOnlyWhenTwoSided) {
     sheet.twoSided = twoSided;
     const std::vector<SceneObject> objects{
         {"bowl", std::make_shared<TriMesh>(bowl(8, 16)), Mat4(1), sheet},
-        {"ball", std::make_shared<TriMesh>(test::sphere(6, 12, 0.5f, {0, -1.6f, 0})), Mat4(1), lambert(Rgb(1))}};
+        {"ball", std::make_shared<TriMesh>(test::sphere(6, 12, 0.5f, {0, -1.6f, 0})), Mat4(1),
+         lambert(Rgb(1))}};
     const BakeInput input(flattenScene(objects));
     const Transfer transfer = input.transfer(settings(256, 60));
     const std::vector<Rgb> e = irradianceOf(input, transfer, constantLight(Rgb(1)));
-    const std::size_t vertices = input.scene->mesh.vertexCount(), top = vertices - 1;  // the ball's upper pole
+    const std::size_t vertices = input.scene->mesh.vertexCount(),
+                      top = vertices - 1;  // the ball's upper pole
     EXPECT_EQ(e.size(), twoSided ? vertices + 16 * 8 + 1 : vertices);
     if (twoSided) {
       EXPECT_NEAR(e[top].x / kPi, 1, 0.01);
@@ -140,7 +145,8 @@ struct PlainRay {
   double weight;  // cosine included
 };
 
-std::vector<PlainRay> plainRays(const BakeInput& input, std::size_t s, RaySpread spread, int count, std::uint64_t seed) {
+std::vector<PlainRay> plainRays(const BakeInput& input, std::size_t s, RaySpread spread, int count,
+                                std::uint64_t seed) {
   Job job;
   const RayTable table(spread, 2, 0, count, seed, job);
   const int scramble = bakeScramble(*input.samples, s, seed);
@@ -153,8 +159,9 @@ std::vector<PlainRay> plainRays(const BakeInput& input, std::size_t s, RaySpread
     if (dot(d, input.samples->geometricNormal[s]) <= 0 && spread == RaySpread::Cosine) continue;
     shEvaluate(5, normalize(ray.direction), ray.y);
     ray.hit = input.rays->intersect({input.samples->origin[s], 0, d});
-    ray.weight = spread == RaySpread::Cosine ? kPi / count
-                                             : 2 * kPi / count * std::max(0.0f, dot(d, input.samples->shadingNormal[s]));
+    ray.weight = spread == RaySpread::Cosine
+                     ? kPi / count
+                     : 2 * kPi / count * std::max(0.0f, dot(d, input.samples->shadingNormal[s]));
     rays.push_back(ray);
   }
   return rays;
@@ -163,7 +170,8 @@ std::vector<PlainRay> plainRays(const BakeInput& input, std::size_t s, RaySpread
 using Vectors = std::vector<std::vector<double>>;  // [S][25]
 
 /// Radiance coefficients that leave towards a ray's origin from where it hit: one channel.
-std::vector<double> plainReflected(const BakeInput& input, const PlainRay& ray, const Vectors& irradiance, int channel) {
+std::vector<double> plainReflected(const BakeInput& input, const PlainRay& ray, const Vectors& irradiance,
+                                   int channel) {
   std::vector<double> g(25, 0);
   if (!ray.hit.valid() || ray.hit.back) return g;
   const UVec3 t = input.scene->mesh.triangles[ray.hit.triangle];
@@ -171,13 +179,15 @@ std::vector<double> plainReflected(const BakeInput& input, const PlainRay& ray, 
   const std::array<double, 3> w{1.0 - b.x - b.y, b.x, b.y};
   for (int c = 0; c < 3; ++c)
     for (std::size_t k = 0; k < 25; ++k)
-      g[k] += input.scene->materialOf(ray.hit.triangle).albedo[channel] / kPi * w[std::size_t(c)] * irradiance[t[c]][k];
+      g[k] += input.scene->materialOf(ray.hit.triangle).albedo[channel] / kPi * w[std::size_t(c)] *
+              irradiance[t[c]][k];
   return g;
 }
 
 /// The chain from given direct vectors on, in double, ray by ray: all bounces, and all but the last.
-std::pair<Vectors, Vectors> plainBounces(const BakeInput& input, const std::vector<std::vector<PlainRay>>& rays, const Vectors& direct,
-                                         int bounces, int channel) {
+std::pair<Vectors, Vectors> plainBounces(const BakeInput& input,
+                                         const std::vector<std::vector<PlainRay>>& rays,
+                                         const Vectors& direct, int bounces, int channel) {
   Vectors last = direct, total = direct, beforeLast = direct;
   for (int b = 0; b < bounces; ++b) {
     beforeLast = total;
@@ -196,7 +206,8 @@ std::pair<Vectors, Vectors> plainBounces(const BakeInput& input, const std::vect
 
 std::vector<std::vector<PlainRay>> allPlainRays(const BakeInput& input, RaySpread spread, int count) {
   std::vector<std::vector<PlainRay>> rays;
-  for (std::size_t s = 0; s < input.samples->size(); ++s) rays.push_back(plainRays(input, s, spread, count, 1));
+  for (std::size_t s = 0; s < input.samples->size(); ++s)
+    rays.push_back(plainRays(input, s, spread, count, 1));
   return rays;
 }
 
@@ -250,9 +261,12 @@ TEST(Bounces, MatricesAgreeWithPlainGatherRayByRay) {
         for (std::size_t k = 0; k < 625; ++k) expected[k] += 2 * kPi / 256 * ray.y[k / 25] * g[k % 25];
       }
       for (std::size_t k = 0; k < 625; ++k)
-        worst = std::max(worst, std::abs(after.as<float>()[(s * 625 + k) * 3 + std::size_t(c)] - before.as<float>()[s * 625 + k] - expected[k]));
+        worst = std::max(worst, std::abs(after.as<float>()[(s * 625 + k) * 3 + std::size_t(c)] -
+                                         before.as<float>()[s * 625 + k] - expected[k]));
       for (std::size_t k = 0; k < 25; ++k)
-        worstVector = std::max(worstVector, std::abs(transfer.diffuse.as<float>()[(s * 25 + k) * 3 + std::size_t(c)] - plain[s][k]));
+        worstVector =
+            std::max(worstVector,
+                     std::abs(transfer.diffuse.as<float>()[(s * 25 + k) * 3 + std::size_t(c)] - plain[s][k]));
     }
     EXPECT_LT(worst, 3e-5) << c;
     EXPECT_LT(worstVector, 2e-5) << c;
@@ -268,18 +282,21 @@ TEST(Bounces, ChannelsAreIndependent) {
     const BakeInput coloured(twoObjects(a, equal ? a : b));
     const Transfer all = coloured.transfer(settings(128, 4));
     for (int c = 0; c < 3; ++c) {
-      const Transfer one = BakeInput(twoObjects(Rgb(a[c]), Rgb(equal ? a[c] : b[c]))).transfer(settings(128, 4));
+      const Transfer one =
+          BakeInput(twoObjects(Rgb(a[c]), Rgb(equal ? a[c] : b[c]))).transfer(settings(128, 4));
       ASSERT_EQ(one.channels, 1);
       double worst = 0;
       for (std::size_t i = 0; i < one.values.as<float>().size(); ++i)
-        worst = std::max(worst, double(std::abs(all.values.as<float>()[3 * i + std::size_t(c)] - one.values.as<float>()[i])));
+        worst = std::max(worst, double(std::abs(all.values.as<float>()[3 * i + std::size_t(c)] -
+                                                one.values.as<float>()[i])));
       EXPECT_LT(worst, 5e-6) << c << equal;
     }
   }
 }
 
 bool sameBits(const Transfer& a, const Transfer& b) {
-  return a.values.bytes == b.values.bytes && a.diffuse.bytes == b.diffuse.bytes && a.surface.bytes == b.surface.bytes && a.bounces == b.bounces;
+  return a.values.bytes == b.values.bytes && a.diffuse.bytes == b.diffuse.bytes &&
+         a.surface.bytes == b.surface.bytes && a.bounces == b.bounces;
 }
 
 TEST(Bounces, BitsDoNotDependOnMemoryOrThreads) {
@@ -301,7 +318,8 @@ TEST(Bounces, EndWhenTheyNoLongerShow) {
   const BakeInput input(bowl(16, 32), Rgb(0.5f));
   int expected = 0;
   for (double share = 1; share >= 0.01;) {  // what the last of `expected` bounces adds
-    const Transfer before = input.transfer(settings(256, expected)), after = input.transfer(settings(256, ++expected));
+    const Transfer before = input.transfer(settings(256, expected)),
+                   after = input.transfer(settings(256, ++expected));
     double added = 0, total = 0;
     for (std::size_t i = 0; i < after.values.size(); ++i) {
       added += std::pow(after.values.as<float>()[i] - before.values.as<float>()[i], 2);
@@ -329,7 +347,8 @@ TEST(TransferBake, StorageTypesDifferByWhatIsReported) {
     const Array a = form == TransferForm::Diffuse ? diffuseVectors(full) : expandedMatrices(full);
     const Array b = form == TransferForm::Diffuse ? diffuseVectors(half) : expandedMatrices(half);
     const std::vector<double> exact(a.as<float>().begin(), a.as<float>().end());
-    EXPECT_NEAR(test::relativeError(b.as<float>(), exact), half.storageError, form == TransferForm::Visibility ? 2e-4 : 1e-6);
+    EXPECT_NEAR(test::relativeError(b.as<float>(), exact), half.storageError,
+                form == TransferForm::Visibility ? 2e-4 : 1e-6);
     EXPECT_EQ(half.values.bytes.size() * 2, full.values.bytes.size());
   }
 }
@@ -345,12 +364,15 @@ TEST(TransferBake, PointsOffTheVerticesBounceToo) {
     free.samples = std::make_shared<SampleSet>(points);
     const TransferSettings s = settings(1024, bounces);
     const DirectTransfer direct = free.direct(directSettings(s, TransferForm::Diffuse));
-    const Transfer transfer = finishTransfer(*input.scene, *input.rays, points, direct, s, TransferForm::Diffuse, job, &vertices);
+    const Transfer transfer =
+        finishTransfer(*input.scene, *input.rays, points, direct, s, TransferForm::Diffuse, job, &vertices);
     EXPECT_EQ(transfer.bounces, bounces);
     double mean = 0;
-    for (const Rgb& e : irradiance(transfer, constantLight(Rgb(1)), points.shadingNormal)) mean += e.x / kPi / 200;
+    for (const Rgb& e : irradiance(transfer, constantLight(Rgb(1)), points.shadingNormal))
+      mean += e.x / kPi / 200;
     EXPECT_NEAR(mean, 1 - std::pow(0.5, bounces + 1), 0.005);
-    EXPECT_THROW(finishTransfer(*input.scene, *input.rays, points, direct, s, TransferForm::Diffuse, job), ValueError);
+    EXPECT_THROW(finishTransfer(*input.scene, *input.rays, points, direct, s, TransferForm::Diffuse, job),
+                 ValueError);
   }
 }
 
@@ -358,7 +380,8 @@ TEST(TransferBake, TheCheapestSufficientFormIsChosen) {
   Material matt = lambert(Rgb(0.5f)), shiny = matt;
   shiny.model = MaterialModel::Phong, shiny.specular = Rgb(0.3f);
   const std::vector<Material> diffuse{matt, matt}, mixed{matt, shiny};
-  const auto form = [](int bounces, bool shadows, std::optional<TransferForm> wanted, const std::vector<Material>& materials) {
+  const auto form = [](int bounces, bool shadows, std::optional<TransferForm> wanted,
+                       const std::vector<Material>& materials) {
     TransferSettings s = settings(64, bounces, wanted);
     s.shadows = shadows;
     return resolveForm(s, materials);
@@ -396,11 +419,12 @@ TEST(TransferBake, PreviewsComeFirstAndRefine) {
   const Transfer reference = input.transfer(settings(8192, 2));
   const std::vector<double> exact(reference.values.as<float>().begin(), reference.values.as<float>().end());
   Job job;
-  const Transfer last = bakeTransfer(input.scene, input.rays, input.samples, settings(1024, 2), job, [&](const Transfer& preview) {
-    EXPECT_FALSE(preview.final());
-    rays.push_back(preview.raysPerSample);
-    errors.push_back(test::relativeError(preview.values.as<float>(), exact));
-  });
+  const Transfer last = bakeTransfer(
+      input.scene, input.rays, input.samples, settings(1024, 2), job, [&](const Transfer& preview) {
+        EXPECT_FALSE(preview.final());
+        rays.push_back(preview.raysPerSample);
+        errors.push_back(test::relativeError(preview.values.as<float>(), exact));
+      });
   EXPECT_TRUE(last.final());
   EXPECT_EQ(rays, (std::vector<int>{64, 256}));
   EXPECT_LT(errors[1], 0.5 * errors[0]);
@@ -465,11 +489,16 @@ TEST(TransferBake, CancellingStopsEveryPhase) {
   const BakeInput input(rock(24), Rgb(0.6f));
   for (const std::string phase : {"direct transfer", "bounces", "transfer matrices"}) {
     Job* self = nullptr;
-    Job job([&](const Progress& p) {
-      if (p.phase == phase) self->cancel();
-    }, 1e9);
+    Job job(
+        [&](const Progress& p) {
+          if (p.phase == phase) self->cancel();
+        },
+        1e9);
     self = &job;
-    EXPECT_THROW(bakeTransfer(input.scene, input.rays, input.samples, settings(512, 2, TransferForm::Matrix), job), Cancelled) << phase;
+    EXPECT_THROW(
+        bakeTransfer(input.scene, input.rays, input.samples, settings(512, 2, TransferForm::Matrix), job),
+        Cancelled)
+        << phase;
   }
 }
 
@@ -477,15 +506,18 @@ TEST(TransferBake, CancellingStopsEveryPhase) {
 
 TEST(Buried, VerticesInsideAnotherBodyTakeTheirNeighboursValues) {
   const std::vector<SceneObject> objects{
-      {"ground", std::make_shared<TriMesh>(test::grid({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 40, 40)), Mat4(1), lambert(Rgb(0.5f))},
+      {"ground", std::make_shared<TriMesh>(test::grid({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 40, 40)), Mat4(1),
+       lambert(Rgb(0.5f))},
       {"ball", std::make_shared<TriMesh>(test::sphere(24, 48, 0.7f)), Mat4(1), lambert(Rgb(0.5f))}};
   const BakeInput input(flattenScene(objects));
   for (const TransferForm form : {TransferForm::Diffuse, TransferForm::Matrix}) {
     const DirectTransfer direct = input.direct(directSettings(settings(256, 2), form));
-    const std::vector<Rgb> e = irradianceOf(input, input.transfer(settings(256, 2, form)), constantLight(Rgb(1)));
-    const std::vector<Rgb> l = form == TransferForm::Matrix
-                                   ? transferredRadiance(input.transfer(settings(256, 2, form)), constantLight(Rgb(1)))
-                                   : std::vector<Rgb>(e.size() * 25, Rgb(1));
+    const std::vector<Rgb> e =
+        irradianceOf(input, input.transfer(settings(256, 2, form)), constantLight(Rgb(1)));
+    const std::vector<Rgb> l =
+        form == TransferForm::Matrix
+            ? transferredRadiance(input.transfer(settings(256, 2, form)), constantLight(Rgb(1)))
+            : std::vector<Rgb>(e.size() * 25, Rgb(1));
     for (std::size_t v = 0; v < 41 * 41; ++v) {
       const float r = length(input.scene->mesh.positions[v]);
       if (std::abs(r - 0.7f) < 0.03f) continue;  // on the contact itself
@@ -499,7 +531,8 @@ TEST(Buried, VerticesInsideAnotherBodyTakeTheirNeighboursValues) {
 TEST(Buried, NothingIsBuriedUnderAnOpenSheet) {
   TriMesh mesh = test::grid({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 8, 8);
   append(mesh, test::grid({-2, 0.5f, 2}, {4, 0, 0}, {0, 0, -4}, 8, 8));
-  const DirectTransfer direct = BakeInput(mesh).direct(directSettings(settings(64, 0), TransferForm::Diffuse));
+  const DirectTransfer direct =
+      BakeInput(mesh).direct(directSettings(settings(64, 0), TransferForm::Diffuse));
   for (const std::uint8_t flag : direct.buried.as<std::uint8_t>()) EXPECT_EQ(flag, 0);
   EXPECT_LT(test::rowOf(direct.diffuse, 40)[0], 0.3f);  // and it is dark there
 }

@@ -27,15 +27,19 @@ struct Bench {
   QString failure;
 
   Bench() {
-    QObject::connect(&bakes, &BakeController::productArrived, [this](const QString& stage, const ProductState& state) {
-      arrivals.push_back({stage, state.level, state.levels});
-    });
+    QObject::connect(&bakes, &BakeController::productArrived,
+                     [this](const QString& stage, const ProductState& state) {
+                       arrivals.push_back({stage, state.level, state.levels});
+                     });
     QObject::connect(&bakes, &BakeController::failed, [this](const QString& text) { failure = text; });
     bakes.setBaker(std::make_shared<Baker>(nullptr, "/"));
   }
-  bool finish() { return waitFor([this] { return !bakes.baking(); }); }
+  bool finish() {
+    return waitFor([this] { return !bakes.baking(); });
+  }
   int count(const char* stage) const {
-    return int(std::count_if(arrivals.begin(), arrivals.end(), [&](const Arrival& a) { return a.stage == QLatin1String(stage); }));
+    return int(std::count_if(arrivals.begin(), arrivals.end(),
+                             [&](const Arrival& a) { return a.stage == QLatin1String(stage); }));
   }
   ProductStatus status(const char* stage) const {
     for (const StageInfo& info : bakes.stageInfos())

@@ -7,7 +7,9 @@
 namespace prt::ui {
 namespace {
 
-QString s(const char* text) { return QString::fromUtf8(text); }
+QString s(const char* text) {
+  return QString::fromUtf8(text);
+}
 
 TEST(Document, UndoIsThePreviousRecipeUnderItsName) {
   Document document;
@@ -88,7 +90,8 @@ TEST(Document, ModifiedComparesWithWhatIsSaved) {
 TEST(Document, MemoryOfStepsIsBounded) {
   Document document;
   document.open(Recipe{}, {});
-  for (int i = 0; i < 2 * Document::kMaxUndo; ++i) document.set(s("lights[0].rotation"), QString::number(i + 1));
+  for (int i = 0; i < 2 * Document::kMaxUndo; ++i)
+    document.set(s("lights[0].rotation"), QString::number(i + 1));
   int steps = 0;
   for (; document.canUndo(); ++steps) document.undo();
   EXPECT_EQ(steps, Document::kMaxUndo);

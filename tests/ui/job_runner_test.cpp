@@ -14,7 +14,9 @@ namespace {
 
 using test::waitFor;
 
-QString s(const char* text) { return QString::fromUtf8(text); }
+QString s(const char* text) {
+  return QString::fromUtf8(text);
+}
 
 // Runs until it is cancelled.
 void forever(Job& job) {
@@ -32,15 +34,18 @@ TEST(JobRunner, DeliversProgressAndTheEndOnItsOwnThread) {
     EXPECT_EQ(QThread::currentThread(), runner.thread());
     seen.push_back(runner.find(id)->progress.done);
   });
-  runner.start(s("count"), s("Counting"), [](Job& job) {
-    job.begin("counting", 10, "things");
-    for (int i = 0; i < 10; ++i) job.advance(1);
-  }, [&](const JobInfo& info) {
-    EXPECT_EQ(info.state, JobState::Done);
-    EXPECT_EQ(info.progress.phase, "counting");
-    EXPECT_EQ(info.progress.done, 10);
-    ended = true;
-  });
+  runner.start(
+      s("count"), s("Counting"),
+      [](Job& job) {
+        job.begin("counting", 10, "things");
+        for (int i = 0; i < 10; ++i) job.advance(1);
+      },
+      [&](const JobInfo& info) {
+        EXPECT_EQ(info.state, JobState::Done);
+        EXPECT_EQ(info.progress.phase, "counting");
+        EXPECT_EQ(info.progress.done, 10);
+        ended = true;
+      });
   EXPECT_TRUE(waitFor([&] { return ended; }));
   EXPECT_TRUE(runner.idle());
   EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
@@ -58,8 +63,10 @@ TEST(JobRunner, ANewerRequestReplacesTheOlderOnesOfItsKind) {
   };
   const quint64 first = runner.start(s("bake"), s("1"), holding, note);
   ASSERT_TRUE(waitFor([&] { return runner.find(first)->state == JobState::Running; }));
-  runner.start(s("bake"), s("2"), [&](Job&) { ++ran; }, note);
-  runner.start(s("bake"), s("3"), [&](Job&) { ran += 10; }, note);
+  runner.start(
+      s("bake"), s("2"), [&](Job&) { ++ran; }, note);
+  runner.start(
+      s("bake"), s("3"), [&](Job&) { ran += 10; }, note);
   asked = true;
   ASSERT_TRUE(waitFor([&] { return states.size() == 3; }));
   EXPECT_EQ(ran, 10) << "the one in the middle never ran";
@@ -70,7 +77,8 @@ TEST(JobRunner, OtherKindsRunBesideIt) {
   JobRunner runner;
   const quint64 bake = runner.start(s("bake"), s("bake"), forever);
   bool loaded = false;
-  runner.start(s("load"), s("load"), [](Job&) {}, [&](const JobInfo&) { loaded = true; });
+  runner.start(
+      s("load"), s("load"), [](Job&) {}, [&](const JobInfo&) { loaded = true; });
   EXPECT_TRUE(waitFor([&] { return loaded; }));
   EXPECT_FALSE(runner.find(bake)->over());
 }
@@ -104,14 +112,16 @@ TEST(JobRunner, PauseHoldsAndResumeGoesOn) {
   EXPECT_TRUE(waitFor([&] { return count > held; }));
   runner.pause(id);
   runner.cancel(id);
-  EXPECT_TRUE(waitFor([&] { return runner.find(id)->state == JobState::Cancelled; })) << "a paused job can be cancelled";
+  EXPECT_TRUE(waitFor([&] { return runner.find(id)->state == JobState::Cancelled; }))
+      << "a paused job can be cancelled";
 }
 
 TEST(JobRunner, FailureCarriesTheMessage) {
   JobRunner runner;
   QString error;
-  runner.start(s("load"), s("load"), [](Job&) { throw FileError("no such file", "a.obj", "check the name"); },
-               [&](const JobInfo& info) { error = info.error; });
+  runner.start(
+      s("load"), s("load"), [](Job&) { throw FileError("no such file", "a.obj", "check the name"); },
+      [&](const JobInfo& info) { error = info.error; });
   ASSERT_TRUE(waitFor([&] { return !error.isEmpty(); }));
   EXPECT_EQ(error, s("a.obj: no such file (check the name)"));
 }
@@ -120,7 +130,8 @@ TEST(JobRunner, MemoryOfOldJobsIsBounded) {
   JobRunner runner;
   for (int i = 0; i < 50; ++i) {
     bool ended = false;
-    runner.start(s("x"), s("x"), [](Job&) {}, [&](const JobInfo&) { ended = true; });
+    runner.start(
+        s("x"), s("x"), [](Job&) {}, [&](const JobInfo&) { ended = true; });
     ASSERT_TRUE(waitFor([&] { return ended; }));
   }
   EXPECT_LE(runner.jobs().size(), 25u);

@@ -74,14 +74,16 @@ TEST_F(MaterialEditorTest, OneFactorBringsEnergyBack) {
   EXPECT_EQ(document.recipe(), before) << "nothing to do";
 }
 
-const Material kGloss{.model = MaterialModel::Phong, .albedo = Rgb(0.3f), .specular = Rgb(0.4f), .exponent = 200};
+const Material kGloss{
+    .model = MaterialModel::Phong, .albedo = Rgb(0.3f), .specular = Rgb(0.4f), .exponent = 200};
 
 TEST(Lobe, IsTheBrdfTimesTheCosine) {
   const Lobe lobe = lobeOf(kGloss, 35);
   const Vec3 in(-std::sin(float(radians(35.0))), 0, std::cos(float(radians(35.0))));
   for (std::size_t i = 0; i < lobe.angles.size(); i += 7) {
     const float a = float(radians(lobe.angles[i]));
-    const double expected = double(luminance(evalBrdf(kGloss, in, {std::sin(a), 0, std::cos(a)}))) * std::max(0.0, double(std::cos(a)));
+    const double expected = double(luminance(evalBrdf(kGloss, in, {std::sin(a), 0, std::cos(a)}))) *
+                            std::max(0.0, double(std::cos(a)));
     EXPECT_NEAR(lobe.diffuse[i] + lobe.specular[i], expected, 1e-4 * lobe.highest + 1e-6) << lobe.angles[i];
     EXPECT_NEAR(lobe.diffuse[i], 0.3 / kPi * std::max(0.0, double(std::cos(a))), 1e-6);
   }

@@ -48,7 +48,8 @@ TEST_F(ProbeLibraryTest, BeginsWithTheBuiltInOnesAndReadsNothingUntilAsked) {
   const auto picture = find(QStringLiteral("builtin:orientation"))->picture;
   ASSERT_TRUE(picture);
   EXPECT_EQ(picture->width, ProbeLibrary::kPictureWidth);
-  const Rgb left = picture->rgb(picture->width / 8, picture->height / 2), middle = picture->rgb(picture->width * 3 / 7, picture->height * 5 / 8);
+  const Rgb left = picture->rgb(picture->width / 8, picture->height / 2),
+            middle = picture->rgb(picture->width * 3 / 7, picture->height * 5 / 8);
   EXPECT_GT(left.z, left.x) << "+Z at the border is blue, or -X cyan";
   EXPECT_GT(middle.x, middle.z) << "-Z in the middle is yellow";
 }

@@ -1,7 +1,7 @@
 #include "ui/model/session.h"
 
-#include "libprt/light/built_in_skies.h"
 #include "libprt/core/image_io.h"
+#include "libprt/light/built_in_skies.h"
 #include "tests/ui/small_scene.h"
 #include "tests/ui/wait.h"
 
@@ -27,9 +27,10 @@ struct Message {
 class SessionTest : public testing::Test {
  protected:
   SessionTest() {
-    QObject::connect(&session, &Session::message, [this](Severity severity, const QString& text, Place place) {
-      messages.push_back({severity, text, place});
-    });
+    QObject::connect(&session, &Session::message,
+                     [this](Severity severity, const QString& text, Place place) {
+                       messages.push_back({severity, text, place});
+                     });
   }
   QString path(const char* name) const { return folder.filePath(QLatin1String(name)); }
   QString write(const char* name, const QByteArray& contents) const {
@@ -64,7 +65,8 @@ TEST_F(SessionTest, OpeningBakesAndLightsAndFrames) {
   EXPECT_EQ(status.level, status.levels);
   EXPECT_EQ(status.rays, 256);
   EXPECT_EQ(status.bounces, 1);
-  EXPECT_GT(length(session.view().camera().eye - session.bounds().center()), 0.5f * session.bounds().diagonal());
+  EXPECT_GT(length(session.view().camera().eye - session.bounds().center()),
+            0.5f * session.bounds().diagonal());
   EXPECT_FALSE(session.document().modified());
 }
 
@@ -84,7 +86,8 @@ TEST_F(SessionTest, ABadMeshIsToldAndTheOldDocumentStays) {
 }
 
 TEST_F(SessionTest, AMissingFileAndAnUnknownKindAreTold) {
-  for (const char* what : {"nowhere.obj", "nowhere.prt", "scene:nowhere"}) session.open(QLatin1String(what)), quiet();
+  for (const char* what : {"nowhere.obj", "nowhere.prt", "scene:nowhere"})
+    session.open(QLatin1String(what)), quiet();
   session.open(write("notes.txt", "hello"));
   ASSERT_TRUE(quiet());
   EXPECT_EQ(messages.size(), 4u);

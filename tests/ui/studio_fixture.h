@@ -71,7 +71,8 @@ class StudioTest : public testing::Test {
  private:
   // QTest::mouseMove knows no modifiers.
   void moveTo(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers modifiers) {
-    QMouseEvent move(QEvent::MouseMove, at, handle()->mapToGlobal(QPointF(at)), Qt::NoButton, button, modifiers);
+    QMouseEvent move(QEvent::MouseMove, at, handle()->mapToGlobal(QPointF(at)), Qt::NoButton, button,
+                     modifiers);
     QCoreApplication::sendEvent(handle(), &move);
   }
 };
@@ -83,7 +84,8 @@ inline double difference(const QImage& a, const QImage& b) {
   for (int y = 0; y < a.height(); ++y)
     for (int x = 0; x < a.width(); ++x) {
       const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
-      count += std::abs(qRed(p) - qRed(q)) + std::abs(qGreen(p) - qGreen(q)) + std::abs(qBlue(p) - qBlue(q)) > 12;
+      count +=
+          std::abs(qRed(p) - qRed(q)) + std::abs(qGreen(p) - qGreen(q)) + std::abs(qBlue(p) - qBlue(q)) > 12;
     }
   return double(count) / (double(a.width()) * a.height());
 }

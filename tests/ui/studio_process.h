@@ -94,8 +94,8 @@ class StudioProcess : public testing::Test {
     xdotool({QStringLiteral("keydown"), QStringLiteral("shift"), QStringLiteral("mousedown"),
              QStringLiteral("1")});
     for (int x = 660; x <= 760; x += 20) moveTo(x);
-    xdotool({QStringLiteral("mouseup"), QStringLiteral("1"), QStringLiteral("keyup"),
-             QStringLiteral("shift")});
+    xdotool(
+        {QStringLiteral("mouseup"), QStringLiteral("1"), QStringLiteral("keyup"), QStringLiteral("shift")});
   }
 
   QTemporaryDir folder;

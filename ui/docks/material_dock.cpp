@@ -147,7 +147,8 @@ void MaterialDock::makePictures() {
     for (const Image& image : *made) pictures.push_back(toQImage(image));
     grid->setPictures(std::move(pictures));
   };
-  session_.jobs().startQuietly(QStringLiteral("material pictures"), tr("Pictures of materials"), work, finish);
+  session_.jobs().startQuietly(QStringLiteral("material pictures"), tr("Pictures of materials"), work,
+                               finish);
 }
 
 }  // namespace prt::ui

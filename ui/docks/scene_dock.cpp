@@ -94,10 +94,13 @@ void SceneDock::makeList() {
   connect(objects_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
     if (column != 0) return;
     const int index = objects_->indexOfTopLevelItem(item);
-    QMetaObject::invokeMethod(this, [this, index, name = item->text(0)] {
-      session_.sceneEditor().rename(index, name);
-      refresh();
-    }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this,
+        [this, index, name = item->text(0)] {
+          session_.sceneEditor().rename(index, name);
+          refresh();
+        },
+        Qt::QueuedConnection);
   });
 }
 
@@ -107,14 +110,17 @@ void SceneDock::makeActions() {
     auto* each = new QAction(icon(QLatin1String(iconName)), text, objects_);
     each->setShortcut(key);
     each->setShortcutContext(Qt::WidgetShortcut);
-    connect(each, &QAction::triggered, this, [this, act] { if (current() >= 0) act(current()); });
+    connect(each, &QAction::triggered, this, [this, act] {
+      if (current() >= 0) act(current());
+    });
     objects_->addAction(each);
     return each;
   };
   action("edit-rename", tr("Rename"), {}, [this](int) { objects_->editItem(objects_->currentItem(), 0); });
   action("edit-duplicate", tr("Duplicate"), QKeySequence(Qt::CTRL | Qt::Key_D),
          [this](int object) { session_.sceneEditor().duplicate(object); });
-  action("edit-delete", tr("Remove"), QKeySequence::Delete, [this](int object) { session_.sceneEditor().remove(object); });
+  action("edit-delete", tr("Remove"), QKeySequence::Delete,
+         [this](int object) { session_.sceneEditor().remove(object); });
   objects_->setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
@@ -127,10 +133,12 @@ QWidget* SceneDock::makeBar() {
   add->setPopupMode(QToolButton::InstantPopup);
   add->setToolTip(tr("Add a mesh to the scene; or drop files on the list."));
   auto* menu = new QMenu(add);
-  menu->addAction(icon(QStringLiteral("document-open")), tr("From file\u2026"), this, &SceneDock::addFromFile);
+  menu->addAction(icon(QStringLiteral("document-open")), tr("From file\u2026"), this,
+                  &SceneDock::addFromFile);
   menu->addSeparator();
   for (const QString& name : SceneEditor::builtinMeshes())
-    menu->addAction(name, this, [this, name] { session_.sceneEditor().add({QStringLiteral("builtin:") + name}); });
+    menu->addAction(name, this,
+                    [this, name] { session_.sceneEditor().add({QStringLiteral("builtin:") + name}); });
   add->setMenu(menu);
 
   ground_->setObjectName(QStringLiteral("groundPlane"));
@@ -158,11 +166,13 @@ QWidget* SceneDock::makeBar() {
   return bar;
 }
 
-int SceneDock::current() const { return objects_->indexOfTopLevelItem(objects_->currentItem()); }
+int SceneDock::current() const {
+  return objects_->indexOfTopLevelItem(objects_->currentItem());
+}
 
 void SceneDock::addFromFile() {
-  session_.sceneEditor().add(QFileDialog::getOpenFileNames(window(), tr("Add meshes"), {},
-                                                           tr("Meshes (*.obj *.ply *.off *.stl *.gltf *.glb);;All files (*)")));
+  session_.sceneEditor().add(QFileDialog::getOpenFileNames(
+      window(), tr("Add meshes"), {}, tr("Meshes (*.obj *.ply *.off *.stl *.gltf *.glb);;All files (*)")));
 }
 
 void SceneDock::dragEnterEvent(QDragEnterEvent* event) {
@@ -199,7 +209,8 @@ void SceneDock::refresh() {
   objects_->setFixedHeight((rows + 1) * kRowHeight + 2);
   const bool removable = session_.sceneEditor().canRemove();
   remove_->setEnabled(removable);
-  remove_->setToolTip(removable ? tr("Remove the selected object (Del)") : tr("A scene has one object at least."));
+  remove_->setToolTip(removable ? tr("Remove the selected object (Del)")
+                                : tr("A scene has one object at least."));
   ground_->setChecked(session_.sceneEditor().hasGround());
   ground_->setEnabled(!session_.sceneEditor().hasGround() || removable);
 }

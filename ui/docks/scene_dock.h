@@ -1,6 +1,6 @@
 #pragma once
-// What is in the scene: the list of objects, and of the selected one its place, how its mesh is read, and what
-// was wrong with its file. Meshes dropped here are added.
+// What is in the scene: the list of objects, and of the selected one its place, how its mesh is read, and
+// what was wrong with its file. Meshes dropped here are added.
 
 #include "ui/widgets/section.h"
 

@@ -28,8 +28,8 @@ struct JobInfo {
   QString kind;   ///< jobs of one kind run one after another
   QString title;  ///< for people
   JobState state = JobState::Queued;
-  Progress progress;  ///< its seconds without pauses
-  QString error;      ///< of a failed job
+  Progress progress;   ///< its seconds without pauses
+  QString error;       ///< of a failed job
   bool quiet = false;  ///< of no interest to people unless it fails
 
   bool over() const { return state >= JobState::Done; }

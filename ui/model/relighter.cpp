@@ -94,7 +94,8 @@ const ShRgb& Relighter::light() {
 
 ShRgb Relighter::wholeLight() const {
   constexpr int kBandsWithoutMap = 10;
-  return projectLights(rig_, environmentCoefficients_.c.empty() ? ShRgb(kBandsWithoutMap) : environmentCoefficients_);
+  return projectLights(
+      rig_, environmentCoefficients_.c.empty() ? ShRgb(kBandsWithoutMap) : environmentCoefficients_);
 }
 
 const SurfaceLight& Relighter::surface() {

@@ -25,8 +25,8 @@ class Relighter : public QObject {
 
   /// A new scene forgets samples and transfer, unless its geometry is the old one's. Null: nothing.
   void setScene(std::shared_ptr<const Scene> scene);
-  /// Where transfer is known: its samples on back sides. When transfer() is there and is not of these, both stay as they
-  /// are until transfer of these arrives: the two always fit together.
+  /// Where transfer is known: its samples on back sides. When transfer() is there and is not of these, both
+  /// stay as they are until transfer of these arrives: the two always fit together.
   void setSamples(std::shared_ptr<const SampleSet> samples);
   /// Transfer of the scene's vertices; null until there is any: the scene is then lit without shadows.
   void setTransfer(std::shared_ptr<const Transfer> transfer);
@@ -49,7 +49,8 @@ class Relighter : public QObject {
 
   /// Coefficients of all lights, bands() bands.
   const ShRgb& light();
-  /// All lights as they are, neither cut to bands() nor windowed: in as many bands as the environment is known in.
+  /// All lights as they are, neither cut to bands() nor windowed: in as many bands as the environment is
+  /// known in.
   ShRgb wholeLight() const;
   const MethodRecipe& method() const { return method_; }
   /// The light at the samples of the scene, which must be there.

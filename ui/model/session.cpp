@@ -1,8 +1,8 @@
 #include "ui/model/session.h"
 
 #include "libprt/basis/sh.h"
-#include "libprt/light/built_in_skies.h"
 #include "libprt/core/error.h"
+#include "libprt/light/built_in_skies.h"
 #include "libprt/light/projection.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/products.h"
@@ -139,8 +139,10 @@ QString Session::environmentPath() const {
 }
 
 void Session::useEnvironment(const QString& path) {
-  if (path.startsWith(u"builtin:")) lights_.setEnvironment(path);
-  else openEnvironment(path);
+  if (path.startsWith(u"builtin:"))
+    lights_.setEnvironment(path);
+  else
+    openEnvironment(path);
 }
 
 // Reads a map and its coefficients behind the interface, then shows it; `loaded` runs right before.
@@ -198,7 +200,8 @@ void Session::showQuickSky(const LightRecipe& light) {
   QuickSky sky = quickClearSky(clearSkyOf(light), kLightBands);
   environmentExact_ = false;
   skyJobKey_.clear();
-  relighter_.setEnvironment(std::make_shared<EnvironmentMap>(std::move(sky.map)), std::move(sky.coefficients));
+  relighter_.setEnvironment(std::make_shared<EnvironmentMap>(std::move(sky.map)),
+                            std::move(sky.coefficients));
 }
 
 void Session::finishSky() {
@@ -210,7 +213,8 @@ void Session::finishSky() {
 // ---- what follows from an edit ----
 
 void Session::follow() {
-  if (selectedObject_ >= int(document_.recipe().objects.size())) selectObject(int(document_.recipe().objects.size()) - 1);
+  if (selectedObject_ >= int(document_.recipe().objects.size()))
+    selectObject(int(document_.recipe().objects.size()) - 1);
   applyLights();
   QStringList environments;
   for (const LightRecipe& light : document_.recipe().lights)

@@ -21,7 +21,8 @@ struct CanvasContext {
 };
 
 /// The overlay's picture for a canvas of this size in logical pixels.
-inline OverlayPicture overlayPicture(const Camera& camera, const QSize& size, double pixelRatio, bool interacting) {
+inline OverlayPicture overlayPicture(const Camera& camera, const QSize& size, double pixelRatio,
+                                     bool interacting) {
   return {.camera = camera,
           .width = std::max(1, qRound(size.width() * pixelRatio)),
           .height = std::max(1, qRound(size.height() * pixelRatio)),

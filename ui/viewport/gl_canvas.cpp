@@ -225,7 +225,8 @@ void GlCanvas::drawLayers() {
     layers_->setMarks(over.marks());
     layersMarks_ = over.marksVersion();
   }
-  layers_->draw(overlayPicture(context_.view.camera(), size(), devicePixelRatioF(), interacting_), defaultFramebufferObject());
+  layers_->draw(overlayPicture(context_.view.camera(), size(), devicePixelRatioF(), interacting_),
+                defaultFramebufferObject());
 }
 
 QImage GlCanvas::grabPicture() {

@@ -19,7 +19,9 @@ namespace {
 constexpr int kSquare = 160, kStrip = 16, kMargin = 8;
 constexpr double kBrightest = 1e9;  // of light, as in the recipe's table
 
-float brightness(const Rgb& c) { return std::max({c.x, c.y, c.z, 1.0f}); }
+float brightness(const Rgb& c) {
+  return std::max({c.x, c.y, c.z, 1.0f});
+}
 }  // namespace
 
 QColor toScreen(const Rgb& c) {
@@ -27,7 +29,9 @@ QColor toScreen(const Rgb& c) {
   return QColor::fromRgbF(channel(c.x), channel(c.y), channel(c.z));
 }
 
-QColor toScreenScaled(const Rgb& light) { return toScreen(light / brightness(light)); }
+QColor toScreenScaled(const Rgb& light) {
+  return toScreen(light / brightness(light));
+}
 
 Rgb fromScreen(const QColor& c) {
   return {decodeSrgb(float(c.redF())), decodeSrgb(float(c.greenF())), decodeSrgb(float(c.blueF()))};
@@ -40,7 +44,9 @@ ColorField::ColorField(Kind kind, QWidget* parent) : QWidget(parent), kind_(kind
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
 
-QSize ColorField::sizeHint() const { return {96, kRowHeight - 2}; }
+QSize ColorField::sizeHint() const {
+  return {96, kRowHeight - 2};
+}
 
 void ColorField::setColor(const Rgb& color) {
   color_ = color;
@@ -68,8 +74,9 @@ void ColorField::paintEvent(QPaintEvent*) {
   painter.setBrush(toScreenScaled(color_));
   painter.drawRoundedRect(box.adjusted(3, 3, -(box.width() - 27), -3), 2, 2);
   painter.setPen(t.text);
-  const QString numbers = QStringLiteral("%1 %2 %3").arg(formatNumber(color_.x, 2), formatNumber(color_.y, 2),
-                                                            formatNumber(color_.z, 2));
+  const QString numbers =
+      QStringLiteral("%1 %2 %3")
+          .arg(formatNumber(color_.x, 2), formatNumber(color_.y, 2), formatNumber(color_.z, 2));
   painter.drawText(box.adjusted(30, 0, -6, -1), Qt::AlignVCenter | Qt::AlignRight, numbers);
 }
 
@@ -78,8 +85,10 @@ void ColorField::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void ColorField::keyPressEvent(QKeyEvent* event) {
-  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space) openPicker();
-  else QWidget::keyPressEvent(event);
+  if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space)
+    openPicker();
+  else
+    QWidget::keyPressEvent(event);
 }
 
 void ColorField::openPicker() {
@@ -118,8 +127,12 @@ ColorPicker::ColorPicker(ColorField::Kind kind, QWidget* parent) : QWidget(paren
   setFixedWidth(kSquare + kStrip + 3 * kMargin);
 }
 
-QRect ColorPicker::square() const { return {kMargin, kMargin, kSquare, kSquare}; }
-QRect ColorPicker::strip() const { return {2 * kMargin + kSquare, kMargin, kStrip, kSquare}; }
+QRect ColorPicker::square() const {
+  return {kMargin, kMargin, kSquare, kSquare};
+}
+QRect ColorPicker::strip() const {
+  return {2 * kMargin + kSquare, kMargin, kStrip, kSquare};
+}
 
 void ColorPicker::setColor(const Rgb& color) {
   if (dragged_ == Part::None) {
@@ -143,7 +156,8 @@ void ColorPicker::paintEvent(QPaintEvent*) {
     squareImage_ = QImage(kSquare, kSquare, QImage::Format_RGB32);
     for (int y = 0; y < kSquare; ++y)
       for (int x = 0; x < kSquare; ++x)
-        squareImage_.setPixelColor(x, y, QColor::fromHsvF(hue_, x / float(kSquare - 1), 1 - y / float(kSquare - 1)));
+        squareImage_.setPixelColor(
+            x, y, QColor::fromHsvF(hue_, x / float(kSquare - 1), 1 - y / float(kSquare - 1)));
     squareHue_ = hue_;
   }
   QPainter painter(this);
@@ -158,7 +172,8 @@ void ColorPicker::paintEvent(QPaintEvent*) {
 
   painter.setPen(QPen(Qt::white, 1.5));
   painter.setBrush(Qt::NoBrush);
-  painter.drawEllipse(QPointF(square().left() + saturation_ * kSquare, square().top() + (1 - value_) * kSquare), 4, 4);
+  painter.drawEllipse(
+      QPointF(square().left() + saturation_ * kSquare, square().top() + (1 - value_) * kSquare), 4, 4);
   const double y = strip().top() + hue_ * kSquare;
   painter.drawLine(QPointF(strip().left() - 2, y), QPointF(strip().right() + 3, y));
 }
@@ -184,8 +199,10 @@ void ColorPicker::mouseReleaseEvent(QMouseEvent*) {
 void ColorPicker::drag(const QPointF& at) {
   const float x = std::clamp(float(at.x() - square().left()) / kSquare, 0.0f, 1.0f);
   const float y = std::clamp(float(at.y() - square().top()) / kSquare, 0.0f, 1.0f);
-  if (dragged_ == Part::Strip) hue_ = std::min(y, 0.9999f);
-  else saturation_ = x, value_ = 1 - y;
+  if (dragged_ == Part::Strip)
+    hue_ = std::min(y, 0.9999f);
+  else
+    saturation_ = x, value_ = 1 - y;
   const Rgb color = scale_ * fromScreen(QColor::fromHsvF(hue_, saturation_, value_));
   showNumbers(color);
   update();

@@ -1,7 +1,7 @@
 #pragma once
 // A colour as a swatch with its numbers; a click opens a small picker under it. Colours are linear
-// Rec.709: reflectances in 0..1, or light, whose brightness has no limit; the swatch shows them as the screen does,
-// light at the brightness of its largest channel.
+// Rec.709: reflectances in 0..1, or light, whose brightness has no limit; the swatch shows them as the screen
+// does, light at the brightness of its largest channel.
 
 #include "libprt/core/math.h"
 
@@ -50,8 +50,8 @@ class ColorField : public QWidget {
   class ColorPicker* picker_ = nullptr;
 };
 
-/// Saturation and value as a square, hue as a strip, and the three linear numbers. Of light, the square chooses the
-/// tint and keeps the brightness: the upper edge is the light's largest channel.
+/// Saturation and value as a square, hue as a strip, and the three linear numbers. Of light, the square
+/// chooses the tint and keeps the brightness: the upper edge is the light's largest channel.
 class ColorPicker : public QWidget {
   Q_OBJECT
  public:

@@ -13,7 +13,9 @@ namespace {
 constexpr double kToRadians = 3.14159265358979 / 180;
 }
 
-double wrapDegrees(double degrees) { return std::remainder(degrees, 360.0); }
+double wrapDegrees(double degrees) {
+  return std::remainder(degrees, 360.0);
+}
 
 Compass::Compass(QWidget* parent) : QWidget(parent) {
   setFixedSize(sizeHint());
@@ -39,7 +41,8 @@ void Compass::paintEvent(QPaintEvent*) {
   const QPointF middle = QRectF(rect()).center();
   const double radius = 0.5 * width() - 2;
   const auto at = [&](double degrees, double distance) {
-    return middle + QPointF(-std::sin(degrees * kToRadians), -std::cos(degrees * kToRadians)) * (radius * distance);
+    return middle +
+           QPointF(-std::sin(degrees * kToRadians), -std::cos(degrees * kToRadians)) * (radius * distance);
   };
   painter.setPen(t.line);
   painter.setBrush(t.field);

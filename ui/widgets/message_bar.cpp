@@ -9,7 +9,8 @@
 
 namespace prt::ui {
 
-MessageBar::MessageBar(QWidget* parent) : QFrame(parent), icon_(new QLabel), text_(new QLabel), fix_(new QPushButton) {
+MessageBar::MessageBar(QWidget* parent)
+    : QFrame(parent), icon_(new QLabel), text_(new QLabel), fix_(new QPushButton) {
   setObjectName(QStringLiteral("messageBar"));
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -37,7 +37,8 @@ double angleBetween(const Vec3& a, const Vec3& b) {
 Panorama::Panorama(LightEditor& lights, QWidget* parent) : QWidget(parent), lights_(lights) {
   setObjectName(QStringLiteral("panorama"));
   setToolTip(
-      tr("Drag the sky to turn it. Double-click adds a circle light; lights are dragged by their middle and resized "
+      tr("Drag the sky to turn it. Double-click adds a circle light; lights are dragged by their middle and "
+         "resized "
          "by their rim."));
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);

@@ -233,7 +233,9 @@ QWidget* PropertyRow::makeVector() {
   NumberFormat format = formatOf(parameter_, title_);
   format.unit = parameter_.unit == "degrees" ? QStringLiteral("\u00b0") : QString();
   auto* field = new VectorField(format);
-  connect(field, &VectorField::edited, this, [this](const Vec3& v) { apply(jsonText(nlohmann::json{v.x, v.y, v.z})); });
+  connect(field, &VectorField::edited, this, [this](const Vec3& v) {
+    apply(jsonText(nlohmann::json{v.x, v.y, v.z}));
+  });
   connect(field, &VectorField::gestureBegan, this,
           [this] { document_.beginGesture(editName(document_.recipe(), path_, title_)); });
   connect(field, &VectorField::gestureEnded, this, [this] { document_.endGesture(); });
