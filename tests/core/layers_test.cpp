@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, int> kLayers{{"core", 0},  {"basis", 1},     {"light", 2}, {"material", 2},
-                                         {"mesh", 3},  {"transport", 4}, {"meso", 5},  {"synthesis", 6},
-                                         {"shade", 7}, {"project", 8},   {"study", 9}, {"gl", 8}};
+const std::map<std::string, int> kLayers{{"core", 0},      {"basis", 1}, {"light", 2},     {"material", 2},
+                                         {"mesh", 3},      {"atlas", 4}, {"transport", 5}, {"meso", 6},
+                                         {"synthesis", 7}, {"shade", 8}, {"project", 9},   {"study", 10},
+                                         {"gl", 9}};
 
 /// Each "file -> folder" edge that goes against the flow.
 std::vector<std::string> wrongIncludes(const fs::path& libprt) {
