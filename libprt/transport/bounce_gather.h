@@ -1,6 +1,6 @@
 #pragma once
 // One gather over what the rays of a bake hit: the operator that takes light leaving the surface to the
-// irradiance, or the directional light, that it brings elsewhere. Internal to transport.
+// irradiance, or the directional light, that it brings elsewhere. Internal to transport and meso.
 
 #include "libprt/core/job.h"
 #include "libprt/transport/direct_transfer.h"

@@ -5,10 +5,12 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -89,7 +91,39 @@ struct Packet {
     }
     return refused;
   }
+
+  /// The same from rays that have little in common; one with no length is switched off and not refused.
+  int load(RTCRay16& query, std::span<const Ray> rays) {
+    int refused = 0;
+    for (std::size_t k = 0; k < kPacket; ++k) {
+      static const Ray harmless{Vec3(0), 0, Vec3(1, 0, 0)};
+      const bool used = k < rays.size(), sound = used && usable(rays[k]);
+      refused += used && !sound;
+      valid[k] = sound && rays[k].tFar >= rays[k].tNear ? -1 : 0;
+      const Ray& ray = valid[k] ? rays[k] : harmless;
+      query.org_x[k] = ray.origin.x, query.org_y[k] = ray.origin.y, query.org_z[k] = ray.origin.z;
+      query.dir_x[k] = ray.direction.x, query.dir_y[k] = ray.direction.y, query.dir_z[k] = ray.direction.z;
+      query.tnear[k] = ray.tNear, query.tfar[k] = ray.tFar;
+      query.mask[k] = 0xffffffffu, query.time[k] = 0, query.id[k] = 0, query.flags[k] = 0;
+    }
+    return refused;
+  }
+
+  void intersect(RTCScene scene, RTCIntersectContext& context, RTCRayHit16& query) {
+    std::fill(std::begin(query.hit.geomID), std::end(query.hit.geomID), RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect16(valid, scene, &context, &query);
+  }
 };
+
+Hit hitOf(const RTCRayHit16& query, std::size_t k, const Vec3& direction) {
+  if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) return {};
+  return {
+      query.hit.primID[k],
+      query.ray.tfar[k],
+      {query.hit.u[k], query.hit.v[k]},
+      query.hit.Ng_x[k] * direction.x + query.hit.Ng_y[k] * direction.y + query.hit.Ng_z[k] * direction.z >
+          0};
+}
 
 /// Packets share an origin and, when sorted, a narrow cone: the frustum traversal that this flag turns
 /// on was the fastest for both queries (single thread, 21 000 to 360 000 triangles: 8 to 15 million rays
@@ -101,32 +135,106 @@ RTCIntersectContext packetContext() {
   return context;
 }
 
+/// Owns a scene of Embree's.
+struct SceneHandle {
+  RTCScene scene = rtcNewScene(device());
+
+  SceneHandle() {
+    if (!scene) throw ResourceError("ray tracing scene cannot be created", "Embree", "free some memory");
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  }
+  ~SceneHandle() { rtcReleaseScene(scene); }
+  SceneHandle(const SceneHandle&) = delete;
+  SceneHandle& operator=(const SceneHandle&) = delete;
+  operator RTCScene() const { return scene; }
+};
+
+/// Where a periodic surface is whole although it has finitely many copies, and how rays go on from there.
+class Torus {
+ public:
+  Torus() = default;
+  Torus(const Box3& bounds, float width) : width_(width) {
+    const Vec3 extent = bounds.high - bounds.low;
+    if (!(width > 0) || !(std::max(extent.x, extent.y) <= 1.5f * width))
+      throw ValueError("one period sticks out too far over the next", "ray scene",
+                       "cut it, or use a larger period");
+    cell_ = bounds.center() - 0.5f * width;
+    const float reach = float(kCopies + 1) * width;
+    low_ = bounds.high - reach, high_ = bounds.low + reach;
+    low_.z = bounds.low.z, high_.z = bounds.high.z;
+  }
+
+  static constexpr int kCopies = 1;  // to each side
+  explicit operator bool() const { return width_ > 0; }
+
+  /// The same point in the middle copy.
+  Vec3 wrapped(Vec3 p) const {
+    for (int axis = 0; axis < 2; ++axis)
+      if (const float periods = std::floor((p[axis] - cell_[axis]) / width_); periods != 0)
+        p[axis] -= periods * width_;
+    return p;
+  }
+  /// Moves a ray that met nothing to where the copies end and returns how far that was; 0 when it leaves the
+  /// layer before.
+  float advance(Ray& ray) const {
+    const Vec3 &o = ray.origin, &d = ray.direction;
+    const auto until = [&](int axis) {
+      if (d[axis] == 0) return std::numeric_limits<float>::infinity();
+      return ((d[axis] > 0 ? high_ : low_)[axis] - o[axis]) / d[axis];
+    };
+    const float side = std::min(until(0), until(1));
+    if (!(side < until(2)) || !(side < ray.tFar) || !(side > 0)) return 0;
+    // A little less than the whole way, so that nothing at the border is lost; nothing lies on that bit.
+    const float step = 0.999f * side;
+    ray.origin = wrapped(o + step * d);
+    ray.tFar -= step, ray.tNear = 0;
+    return step;
+  }
+
+ private:
+  float width_ = 0;
+  Vec3 cell_{0}, low_{0}, high_{0};
+};
+
+constexpr int kMostSteps = 500;
+
 }  // namespace
 
 struct RayScene::Impl {
-  RTCScene scene = nullptr;
+  std::unique_ptr<SceneHandle> scene = std::make_unique<SceneHandle>();
+  std::unique_ptr<SceneHandle> copied;  // what a periodic scene is made of
+  Torus torus;
   float size = 0;
   mutable std::atomic<std::uint64_t> refused{0};
 
   explicit Impl(const Scene& from, Job* job) : size(from.mesh.bounds().diagonal()) {
     checkPositions(from);
-    scene = rtcNewScene(device());
-    if (!scene) throw ResourceError("ray tracing scene cannot be created", "Embree", "free some memory");
-    try {
-      fill(from);
-      commit(job);
-    } catch (...) {
-      rtcReleaseScene(scene);
-      throw;
-    }
+    fill(from, *scene);
+    commit(*scene, job);
   }
-  ~Impl() { rtcReleaseScene(scene); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
-  void fill(const Scene& from) {
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  Impl(const Scene& from, float width, Job* job) : Impl(from, job) {
+    torus = Torus(from.mesh.bounds(), width);
+    copied = std::exchange(scene, std::make_unique<SceneHandle>());
+    for (int y = -Torus::kCopies; y <= Torus::kCopies; ++y)
+      for (int x = -Torus::kCopies; x <= Torus::kCopies; ++x)
+        addCopy(Vec3(float(x) * width, float(y) * width, 0));
+    commit(*scene, job);
+  }
+
+  void addCopy(const Vec3& move) {
+    const RTCGeometry copy = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    if (!copy) throw ResourceError("no memory for the ray tracing scene", "Embree", "simplify the mesh");
+    const float matrix[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, move.x, move.y, move.z};
+    rtcSetGeometryInstancedScene(copy, *copied);
+    rtcSetGeometryTransform(copy, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+    rtcCommitGeometry(copy);
+    rtcAttachGeometry(*scene, copy);
+    rtcReleaseGeometry(copy);
+  }
+
+  void fill(const Scene& from, RTCScene to) {
+    rtcSetSceneBuildQuality(to, RTC_BUILD_QUALITY_HIGH);
     const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!geometry) throw ResourceError("no memory for the ray tracing scene", "Embree", "simplify the mesh");
     try {
@@ -138,17 +246,17 @@ struct RayScene::Impl {
       throw;
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
+    rtcAttachGeometry(to, geometry);
     rtcReleaseGeometry(geometry);
   }
 
-  void commit(Job* job) {
-    if (job) rtcSetSceneProgressMonitorFunction(scene, &Impl::goOn, job);
+  static void commit(RTCScene built, Job* job) {
+    if (job) rtcSetSceneProgressMonitorFunction(built, &Impl::goOn, job);
     rtcGetDeviceError(device());  // forget errors of others
-    rtcCommitScene(scene);
+    rtcCommitScene(built);
     const RTCError error = rtcGetDeviceError(device());
     if (job && job->cancelled()) throw Cancelled();
-    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    rtcSetSceneProgressMonitorFunction(built, nullptr, nullptr);
     if (error == RTC_ERROR_OUT_OF_MEMORY)
       throw ResourceError("no memory for the ray tracing scene", "Embree",
                           "simplify the mesh or free some memory");
@@ -162,38 +270,65 @@ struct RayScene::Impl {
   void refuse(std::uint64_t count) const {
     if (count) refused.fetch_add(count, std::memory_order_relaxed);
   }
+
+  /// The first hit of a usable ray among the copies that there are.
+  Hit first(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    query.ray = embreeRay(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(*scene, &context, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {query.hit.primID,
+            query.ray.tfar,
+            {query.hit.u, query.hit.v},
+            dot(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), ray.direction) > 0};
+  }
+
+  /// The hit of a ray that has met nothing so far.
+  Hit beyond(Ray ray) const {
+    float gone = 0;
+    for (int i = 0; torus && i < kMostSteps; ++i) {
+      const float step = torus.advance(ray);
+      if (step == 0) break;
+      gone += step;
+      if (Hit hit = first(ray); hit.valid()) return hit.t += gone, hit;
+    }
+    return {};
+  }
+
+  Vec3 startOf(const Vec3& origin) const { return torus ? torus.wrapped(origin) : origin; }
 };
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>(scene, nullptr)) {}
 RayScene::RayScene(const Scene& scene, Job& job) : impl_(std::make_unique<Impl>(scene, &job)) {}
+RayScene::RayScene(const Scene& scene, const Periodic& periodic, Job& job)
+    : impl_(std::make_unique<Impl>(scene, periodic.width, &job)) {}
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-bool RayScene::occluded(const Ray& ray) const {
-  if (!usable(ray)) return impl_->refuse(1), false;
-  if (ray.tFar < ray.tNear) return false;
+bool RayScene::occluded(const Ray& given) const {
+  if (!usable(given)) return impl_->refuse(1), false;
+  if (given.tFar < given.tNear) return false;
+  Ray ray = given;
+  ray.origin = impl_->startOf(ray.origin);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay query = embreeRay(ray);
-  rtcOccluded1(impl_->scene, &context, &query);
-  return query.tfar < 0;  // Embree marks a blocked ray with minus infinity
+  rtcOccluded1(*impl_->scene, &context, &query);
+  if (query.tfar < 0) return true;  // Embree marks a blocked ray with minus infinity
+  return impl_->beyond(ray).valid();
 }
 
-Hit RayScene::intersect(const Ray& ray) const {
-  if (!usable(ray)) return impl_->refuse(1), Hit{};
-  if (ray.tFar < ray.tNear) return {};
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  RTCRayHit query{};
-  query.ray = embreeRay(ray);
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->scene, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {query.hit.primID,
-          query.ray.tfar,
-          {query.hit.u, query.hit.v},
-          dot(Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z), ray.direction) > 0};
+Hit RayScene::intersect(const Ray& given) const {
+  if (!usable(given)) return impl_->refuse(1), Hit{};
+  if (given.tFar < given.tNear) return {};
+  Ray ray = given;
+  ray.origin = impl_->startOf(ray.origin);
+  const Hit hit = impl_->first(ray);
+  return hit.valid() ? hit : impl_->beyond(ray);
 }
 
 void RayScene::occludedFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
@@ -203,15 +338,19 @@ void RayScene::occludedFrom(const Vec3& origin, std::span<const float> dx, std::
     throw ValueError("directions and results differ in number", "ray scene", "give spans of one size");
   std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
   if (!inRange(origin)) return impl_->refuse(n);
+  const Vec3 start = impl_->startOf(origin);
   RTCIntersectContext context = packetContext();
   std::uint64_t refused = 0;
   for (std::size_t i = 0; i < n; i += kPacket) {
     const std::size_t count = std::min(kPacket, n - i);
     Packet packet;
     RTCRay16 rays;
-    refused += packet.load(rays, origin, &dx[i], &dy[i], &dz[i], count);
-    rtcOccluded16(packet.valid, impl_->scene, &context, &rays);
-    for (std::size_t k = 0; k < count; ++k) blocked[i + k] = packet.valid[k] && rays.tfar[k] < 0;
+    refused += packet.load(rays, start, &dx[i], &dy[i], &dz[i], count);
+    rtcOccluded16(packet.valid, *impl_->scene, &context, &rays);
+    for (std::size_t k = 0; k < count; ++k)
+      blocked[i + k] =
+          packet.valid[k] &&
+          (rays.tfar[k] < 0 || impl_->beyond({start, 0, Vec3(dx[i + k], dy[i + k], dz[i + k])}).valid());
   }
   impl_->refuse(refused);
 }
@@ -223,23 +362,47 @@ void RayScene::intersectFrom(const Vec3& origin, std::span<const float> dx, std:
     throw ValueError("directions and results differ in number", "ray scene", "give spans of one size");
   std::fill(hits.begin(), hits.end(), Hit{});
   if (!inRange(origin)) return impl_->refuse(n);
+  const Vec3 start = impl_->startOf(origin);
   RTCIntersectContext context = packetContext();
   std::uint64_t refused = 0;
   for (std::size_t i = 0; i < n; i += kPacket) {
     const std::size_t count = std::min(kPacket, n - i);
     Packet packet;
     RTCRayHit16 query;
-    std::fill(std::begin(query.hit.geomID), std::end(query.hit.geomID), RTC_INVALID_GEOMETRY_ID);
-    refused += packet.load(query.ray, origin, &dx[i], &dy[i], &dz[i], count);
-    rtcIntersect16(packet.valid, impl_->scene, &context, &query);
-    for (std::size_t k = 0; k < count; ++k)
-      if (packet.valid[k] && query.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID)
-        hits[i + k] = {
-            query.hit.primID[k],
-            query.ray.tfar[k],
-            {query.hit.u[k], query.hit.v[k]},
-            query.hit.Ng_x[k] * dx[i + k] + query.hit.Ng_y[k] * dy[i + k] + query.hit.Ng_z[k] * dz[i + k] >
-                0};
+    refused += packet.load(query.ray, start, &dx[i], &dy[i], &dz[i], count);
+    packet.intersect(*impl_->scene, context, query);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!packet.valid[k]) continue;
+      const Vec3 d(dx[i + k], dy[i + k], dz[i + k]);
+      const Hit hit = hitOf(query, k, d);
+      hits[i + k] = hit.valid() ? hit : impl_->beyond({start, 0, d});
+    }
+  }
+  impl_->refuse(refused);
+}
+
+void RayScene::intersectRays(std::span<const Ray> rays, std::span<Hit> hits) const {
+  if (rays.size() != hits.size())
+    throw ValueError("rays and results differ in number", "ray scene", "give spans of one size");
+  std::fill(hits.begin(), hits.end(), Hit{});
+  RTCIntersectContext context = packetContext();
+  std::uint64_t refused = 0;
+  for (std::size_t i = 0; i < rays.size(); i += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - i);
+    Packet packet;
+    RTCRayHit16 query;
+    std::array<Ray, kPacket> moved;
+    for (std::size_t k = 0; k < count; ++k) {
+      moved[k] = rays[i + k];
+      if (usable(moved[k])) moved[k].origin = impl_->startOf(moved[k].origin);
+    }
+    refused += packet.load(query.ray, std::span(moved).first(count));
+    packet.intersect(*impl_->scene, context, query);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!packet.valid[k]) continue;
+      const Hit hit = hitOf(query, k, moved[k].direction);
+      hits[i + k] = hit.valid() ? hit : impl_->beyond(moved[k]);
+    }
   }
   impl_->refuse(refused);
 }

@@ -42,6 +42,12 @@ Vec3 offsetOrigin(const Vec3& p, const Vec3& n, float sceneSize = 1);
 /// "Physically Based Rendering", section 6.8). A path that has entered a narrow crease stays in it.
 Vec3 offsetOrigin(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& barycentric, const Vec3& n);
 
+/// A surface that repeats itself for ever along x and y, as a patch of meso-structure does: the scene is one
+/// period of it and may stick out over its neighbours by up to half a period in all.
+struct Periodic {
+  float width = 1;
+};
+
 /// An Embree scene built for robustness over speed. Thread-safe once built. A ray is refused when a
 /// coordinate is not finite or beyond 1e18, its direction is zero, its tNear is negative or NaN, or
 /// its tFar is NaN; it counts as "hit nothing". The one-origin calls agree with each other to the bit
@@ -54,6 +60,11 @@ class RayScene {
   explicit RayScene(const Scene& scene);
   /// The same, and Cancelled when the job is cancelled meanwhile.
   RayScene(const Scene& scene, Job& job);
+  /// The scene repeated without end: hits name the triangle of the one scene, whichever copy they lie on.
+  /// Rays go from copy to copy until they meet something, leave the layer upwards or downwards, or have gone
+  /// 500 periods in the layer, which counts as leaving it. Throws ValueError also when the scene sticks out
+  /// too far or the width is not positive.
+  RayScene(const Scene& scene, const Periodic& periodic, Job& job);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
@@ -69,6 +80,10 @@ class RayScene {
   /// Many rays from one origin, with what they hit.
   void intersectFrom(const Vec3& origin, std::span<const float> dx, std::span<const float> dy,
                      std::span<const float> dz, std::span<Hit> hits) const;
+
+  /// Any rays, in packets of 16: neighbours should lie close together. Throws ValueError when the sizes
+  /// differ.
+  void intersectRays(std::span<const Ray> rays, std::span<Hit> hits) const;
 
   /// Diagonal of the scene's bounding box.
   float size() const;

@@ -1,0 +1,103 @@
+#include "libprt/meso/patch_scene.h"
+
+#include "libprt/meso/torus_vertices.h"
+
+#include <cmath>
+#include <set>
+
+namespace prt {
+namespace {
+
+Scene sceneOf(const TriMesh& mesh) {
+  Scene scene;
+  scene.mesh = mesh;
+  scene.triangleObject.assign(mesh.triangleCount(), 0);
+  scene.vertexObject.assign(mesh.vertexCount(), 0);
+  scene.materials = {Material{}};
+  scene.names = {"patch"};
+  return scene;
+}
+
+/// The mesh with the triangles that its vertices miss because they lie a period away, so that every vertex
+/// has all its faces around it.
+class Padding {
+ public:
+  explicit Padding(const TriMesh& mesh) : mesh_(mesh), padded_(mesh), places_(torusPlaces(mesh.positions)) {}
+
+  TriMesh run() {
+    std::vector<std::vector<std::uint32_t>> trianglesAt(mesh_.vertexCount()), verticesAt(mesh_.vertexCount());
+    for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t)
+      for (int k = 0; k < 3; ++k) trianglesAt[mesh_.triangles[t][k]].push_back(t);
+    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v) verticesAt[places_[v]].push_back(v);
+    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v)
+      for (const std::uint32_t other : verticesAt[places_[v]]) {
+        const int x = periods(v, other, 0), y = periods(v, other, 1);
+        if (x == 0 && y == 0) continue;
+        for (const std::uint32_t t : trianglesAt[other]) addCopy(t, x, y);
+      }
+    return std::move(padded_);
+  }
+
+ private:
+  /// Whole periods from vertex b to vertex a.
+  int periods(std::uint32_t a, std::uint32_t b, int axis) const {
+    return int(std::lround(mesh_.positions[a][axis] - mesh_.positions[b][axis]));
+  }
+
+  void addCopy(std::uint32_t triangle, int x, int y) {
+    if (!copied_.emplace(triangle, x, y).second) return;
+    UVec3 made;
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh_.triangles[triangle][k];
+      made[k] = vertices_.at(v, x, y, [&] {
+        padded_.positions.push_back(position(v, x, y));
+        padded_.normals.push_back(mesh_.normals[v]);
+        return std::uint32_t(padded_.positions.size() - 1);
+      });
+    }
+    padded_.triangles.push_back(made);
+  }
+
+  /// Exactly the position of a vertex that is there already, if one is: samples look for equal ones.
+  Vec3 position(std::uint32_t v, int x, int y) {
+    if (cells_.empty())
+      for (std::uint32_t w = 0; w < mesh_.vertexCount(); ++w)
+        cells_.try_emplace({places_[w], periods(w, places_[w], 0), periods(w, places_[w], 1)}, w);
+    const auto found =
+        cells_.find({places_[v], periods(v, places_[v], 0) + x, periods(v, places_[v], 1) + y});
+    if (found != cells_.end()) return mesh_.positions[found->second];
+    return mesh_.positions[v] + Vec3(float(x), float(y), 0);
+  }
+
+  const TriMesh& mesh_;
+  TriMesh padded_;
+  std::vector<std::uint32_t> places_;
+  TorusVertexMap vertices_;
+  std::map<std::tuple<std::uint32_t, int, int>, std::uint32_t> cells_;
+  std::set<std::tuple<std::uint32_t, int, int>> copied_;
+};
+
+}  // namespace
+
+PatchScene makePatchScene(std::shared_ptr<const Patch> patch, Job& job) {
+  PatchScene out;
+  out.scene = std::make_shared<Scene>(sceneOf(patch->mesh));
+  out.rays = std::make_shared<RayScene>(*out.scene, Periodic{}, job);
+  std::vector<std::uint32_t> firsts;
+  std::vector<std::uint32_t> number(patch->twin.size());
+  for (std::uint32_t v = 0; v < patch->twin.size(); ++v)
+    if (patch->twin[v] == v) number[v] = std::uint32_t(firsts.size()), firsts.push_back(v);
+  for (const std::uint32_t twin : patch->twin) out.sampleOf.push_back(number[twin]);
+  out.samples = std::make_shared<SampleSet>(
+      someSamples(samplesAtVertices(sceneOf(Padding(patch->mesh).run())), firsts));
+  job.checkCancelled();
+  out.patch = std::move(patch);
+  return out;
+}
+
+Ray viewRay(const Patch& patch, const Vec2& uv, const Vec3& view) {
+  const float up = 0.5f * patch.depth() + 1e-3f;
+  return {Vec3(uv, patch.middle()) + view * (up / view.z), 0, -view};
+}
+
+}  // namespace prt
