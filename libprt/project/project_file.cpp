@@ -1,5 +1,6 @@
 #include "libprt/project/project_file.h"
 
+#include "libprt/core/log.h"
 #include "libprt/project/project_disk.h"
 #include "libprt/project/project_schema.h"
 
@@ -91,6 +92,7 @@ bool ProjectFile::openLeftover(const std::string& base) {
     claim(*database);  // plays back what an interrupted commit left
     checkHeader(file);
     checkSchema(*database);
+    checkPages(*database);
     base_ = readProjectRow(*database).base;
     if (beganFrom(base_, base)) {
       readProductRows(*database);
@@ -200,15 +202,30 @@ std::unique_ptr<ProductStore::Stored> ProjectFile::read(const std::string& stage
   std::lock_guard lock(mutex_);
   for (const ProductRow& row : readProductRows(current())) {
     if (row.info.stage != stage || row.info.key != key || row.role != role) continue;
-    auto stored = std::make_unique<Stored>();
-    stored->level = row.info.level;
-    stored->levels = row.info.levels;
-    stored->data.meta = row.info.meta;
-    for (const ArrayInfo& info : row.info.arrays)
-      stored->data.arrays[info.name] = readArray(current(), row.id, info);
-    return stored;
+    try {
+      auto stored = std::make_unique<Stored>();
+      stored->level = row.info.level;
+      stored->levels = row.info.levels;
+      stored->data.meta = row.info.meta;
+      for (const ArrayInfo& info : row.info.arrays)
+        stored->data.arrays[info.name] = readArray(current(), row.id, info);
+      return stored;
+    } catch (const DamagedFile& error) {
+      if (!work_) throw;  // whoever only reads is told
+      logWarning(std::string(error.what()) + "; the " + role + " of stage " + stage + " is made anew");
+      drop(row.id);
+    }
   }
   return nullptr;
+}
+
+/// Removes one product or checkpoint from the working copy, in a commit of its own.
+void ProjectFile::drop(std::int64_t id) {
+  Transaction transaction(work());
+  deleteProduct(work(), id);
+  writeProject();
+  transaction.commit();
+  written_ = true;
 }
 
 void ProjectFile::write(const std::string& stage, const std::string& key, const std::string& role,
@@ -335,9 +352,7 @@ std::int64_t ProjectFile::bytes() const {
 ProjectFile::Verified ProjectFile::verify(const fs::path& file, Job& job) {
   checkHeader(file);
   const auto database = openChecked(file, Database::Mode::ReadOnly);
-  Statement check(*database, "PRAGMA integrity_check(1)");
-  if (!check.step() || check.text(0) != "ok")
-    throw DamagedFile("is damaged: " + check.text(0), file.string(), "use a backup or bake again");
+  checkPages(*database);
   recipeFromText(readProjectRow(*database).recipe, file.string());
   const std::vector<ProductRow> rows = readProductRows(*database);
   Verified sum{int(rows.size()), 0, database->integer("SELECT count(*) FROM chunk"), 0};

@@ -73,6 +73,8 @@ class ProjectFile : public ProductStore {
   Recipe recipe() const;
   void setRecipe(const Recipe& recipe);
 
+  /// Throws FileError when what is stored is damaged. In a working copy it is removed instead, with a
+  /// warning, and counts as not there: whoever bakes makes it anew.
   std::unique_ptr<Stored> find(const std::string& stage, const std::string& key) override;
   void put(const std::string& stage, const std::string& key, const Stored& stored) override;
   std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override;
@@ -131,6 +133,7 @@ class ProjectFile : public ProductStore {
   std::string writeCopy(const std::filesystem::path& to, const SaveOptions& options, Job& job);
   std::unique_ptr<Stored> read(const std::string& stage, const std::string& key, const std::string& role);
   void write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored);
+  void drop(std::int64_t id);
 
   mutable std::recursive_mutex mutex_;  // guards everything below but file_
   const std::filesystem::path file_;

@@ -80,6 +80,12 @@ void checkSchema(Database& database) {
                       "use a backup or bake again");
 }
 
+void checkPages(Database& database) {
+  Statement check(database, "PRAGMA integrity_check(1)");
+  if (!check.step() || check.text(0) != "ok")
+    throw DamagedFile("is damaged: " + check.text(0), database.file().string(), "use a backup or bake again");
+}
+
 void checkHeader(const fs::path& file) {
   const std::string where = file.string();
   std::error_code error;

@@ -24,6 +24,8 @@ void prepareEmpty(Database& database);
 void createSchema(Database& database);
 /// Throws DamagedFile unless the tables are exactly ours.
 void checkSchema(Database& database);
+/// Throws DamagedFile unless the database's pages hang together; reads all of them.
+void checkPages(Database& database);
 /// Looks at the first bytes, before SQLite does: no file, folder, no project, truncated, newer. FileError.
 void checkHeader(const std::filesystem::path& file);
 

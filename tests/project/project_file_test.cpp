@@ -206,6 +206,90 @@ TEST_F(ProjectFileTest, DamagedWorkIsDropped) {
   }
 }
 
+/// Flips a bit in every compressed chunk of a file.
+void damageChunks(const fs::path& file) {
+  std::string bytes = readBytes(file);
+  const std::string frame = "\x28\xb5\x2f\xfd";
+  for (auto at = bytes.find(frame); at != std::string::npos; at = bytes.find(frame, at + 1))
+    bytes[at + 6] ^= 1;
+  writeBytes(file, bytes);
+}
+
+TEST_F(ProjectFileTest, WhatIsDamagedInAWorkingCopyIsNotThere) {
+  for (const bool saved : {false, true}) {
+    if (saved) makeSaved();
+    {
+      const auto project = ProjectFile::openForWork(file);
+      project->put("direct", "key", sample());
+      project->putCheckpoint("bounces", "k2", sample().data);
+    }
+    damageChunks(ProjectFile::workFile(file));
+    const auto project = ProjectFile::openForWork(file);
+    ASSERT_TRUE(project->resumed());
+    EXPECT_EQ(project->find("direct", "key"), nullptr);
+    EXPECT_EQ(project->findCheckpoint("bounces", "k2"), nullptr);
+    EXPECT_TRUE(project->contents().empty());
+    project->put("direct", "key", sample());
+    project->save();
+    EXPECT_EQ(verifyError(), "no error");
+    EXPECT_TRUE(equal(ProjectFile::open(file)->find("direct", "key")->data, sample().data));
+  }
+}
+
+TEST_F(ProjectFileTest, BakingAgainMendsASavedProject) {
+  makeSaved();
+  damageChunks(file);
+  EXPECT_THROW(ProjectFile::open(file)->find("direct", "key"), FileError) << "a reader is told";
+  const auto project = ProjectFile::openForWork(file);
+  EXPECT_EQ(project->find("direct", "key"), nullptr);
+  project->put("direct", "key", sample());
+  project->save();
+  EXPECT_EQ(verifyError(), "no error");
+}
+
+TEST_F(ProjectFileTest, AWorkingCopyWhosePagesAreDamagedIsDroppedOrServes) {
+  constexpr std::size_t kPage = 65536;
+  makeSaved();
+  ProjectFile::openForWork(file)->put("bounces", "k2", sample());
+  const std::string good = readBytes(ProjectFile::workFile(file)), savedBytes = readBytes(file);
+  ASSERT_GT(good.size(), 3 * kPage);
+  for (std::size_t page = 0; page * kPage < good.size(); ++page) {
+    std::string bytes = good;
+    bytes.replace(page * kPage + (page == 0 ? 100 : 0), 64, 64, '\x55');
+    writeBytes(file, savedBytes);
+    writeBytes(ProjectFile::workFile(file), bytes);
+    const auto project = ProjectFile::openForWork(file);
+    project->find("bounces", "k2");
+    project->put("bounces", "k2", sample());
+    EXPECT_NE(project->find("direct", "key"), nullptr) << page;
+    project->save();
+    EXPECT_EQ(verifyError(), "no error") << page;
+  }
+}
+
+/// A bake runs again whatever was damaged, and ends in the same bits.
+TEST_F(ProjectFileTest, ABakeMakesDamagedWorkAnew) {
+  Recipe recipe;
+  recipe.transfer.rays = 64;
+  const auto bake = [&](test::ToyStages& toy) {
+    const auto project = ProjectFile::openForWork(file);
+    Job job;
+    return Pipeline(project.get(), {folder, 0}, toy.table)
+        .run(recipe, {"bounces"}, job)
+        .get<test::Number>("bounces")
+        ->value;
+  };
+  test::ToyStages first, again;
+  const double expected = bake(first);
+  damageChunks(ProjectFile::workFile(file));
+  EXPECT_EQ(bake(again), expected);
+  EXPECT_EQ(again.runs["direct"], 1);
+  EXPECT_EQ(again.passes, 4) << "the checkpoint is damaged too";
+  test::ToyStages third;
+  EXPECT_EQ(bake(third), expected);
+  EXPECT_TRUE(third.runs.empty()) << "what was made anew is kept";
+}
+
 TEST_F(ProjectFileTest, OnlyOneMayWork) {
   const auto first = ProjectFile::openForWork(file);
   try {
