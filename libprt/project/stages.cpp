@@ -64,6 +64,7 @@ std::vector<Stage> makeStages() {
        .load = DirectProduct::load},
       {.name = "transfer",
        .makes = "direct transfer and bounces, in the form that materials need",
+       .version = 2,
        .inputs = {"scene", "samples", "rays", "direct"},
        .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold",
                  "transfer.storage"},

@@ -28,16 +28,22 @@ double norm(const SampleRows& rows) {
   return std::sqrt(sum);
 }
 
-/// Direct irradiance vectors as rows, the same in every channel.
+/// Rows of one channel as rows of several, which are all the same.
+SampleRows repeated(const SampleRows& rows, int channels) {
+  const auto count = std::size_t(channels);
+  SampleRows all(rows.count(), rows.width * count);
+  for (std::size_t s = 0; s < rows.count(); ++s)
+    for (std::size_t i = 0; i < all.width; ++i) all.row(s)[i] = rows.row(s)[i / count];
+  return all;
+}
+
+/// Direct irradiance vectors as rows.
 SampleRows directRows(const DirectTransfer& direct, int channels) {
   const auto functions = std::size_t(direct.diffuse.shape[1]);
-  SampleRows rows(direct.samples(), functions * std::size_t(channels));
+  SampleRows rows(direct.samples(), functions);
   const std::span<const float> e = direct.diffuse.as<float>();
-  for (std::size_t s = 0; s < direct.samples(); ++s)
-    for (std::size_t k = 0; k < functions; ++k)
-      for (std::size_t c = 0; c < std::size_t(channels); ++c)
-        rows.row(s)[k * std::size_t(channels) + c] = e[s * functions + k];
-  return rows;
+  for (std::size_t s = 0; s < rows.count(); ++s) std::copy_n(&e[s * functions], functions, rows.row(s));
+  return repeated(rows, channels);
 }
 
 /// to += scale * from, where `from` may have one channel for the three of `to`.
@@ -72,37 +78,45 @@ bool fillFrom(const std::map<std::string, Array>& arrays, const std::string& nam
 /// The chain between two bounces.
 struct Chain {
   BounceResult result;
-  SampleRows last;  // e_k, or e_k / albedo^k
+  SampleRows source;  // e_k, or e_k / albedo^k, as the next bounce is gathered from it
+  float share = 1;    // of the total, that the last bounce added
 
   std::map<std::string, Array> save() const {
     const std::int32_t bounces = result.bounces;
     return {{"bounces", Array::from<std::int32_t>(std::span(&bounces, 1), {1})},
+            {"share", Array::from<float>(std::span(&share, 1), {1})},
             {"total", arrayOf(result.total)},
-            {"before_last", arrayOf(result.beforeLast)},
-            {"last", arrayOf(last)}};
+            {"before_last", arrayOf(result.surface)},
+            {"last", arrayOf(source)}};
   }
 
   /// Takes up a saved state of at most `most` bounces, if that is what `arrays` hold.
   void restore(const std::map<std::string, Array>& arrays, int most) {
-    const auto found = arrays.find("bounces");
-    if (found == arrays.end() || found->second.dtype != DType::i32 ||
-        found->second.bytes.size() != sizeof(std::int32_t))
-      return;
+    const auto number = [&](const char* name, DType type) {
+      const auto found = arrays.find(name);
+      const bool fits =
+          found != arrays.end() && found->second.dtype == type && found->second.bytes.size() == 4;
+      return fits ? &found->second : nullptr;
+    };
+    const Array *bounces = number("bounces", DType::i32), *added = number("share", DType::f32);
+    if (!bounces || !added) return;
     Chain next = *this;
-    next.result.bounces = found->second.as<std::int32_t>()[0];
+    next.result.bounces = bounces->as<std::int32_t>()[0];
+    next.share = added->as<float>()[0];
     const bool fits = next.result.bounces > 0 && next.result.bounces <= most &&
                       fillFrom(arrays, "total", next.result.total) &&
-                      fillFrom(arrays, "before_last", next.result.beforeLast) &&
-                      fillFrom(arrays, "last", next.last);
+                      fillFrom(arrays, "before_last", next.result.surface) &&
+                      fillFrom(arrays, "last", next.source);
     if (fits) *this = std::move(next);
   }
 
-  /// Whether the last bounce added less than this share of the total.
-  bool endsBelow(float share) const {
-    if (result.bounces == 0) return false;
-    SampleRows added = result.total;
-    for (std::size_t i = 0; i < added.values.size(); ++i) added.values[i] -= result.beforeLast.values[i];
-    return norm(added) < share * norm(result.total);
+  /// One more bounce: `irradiance` times `scale`.
+  void add(const SampleRows& irradiance, const Rgb& scale) {
+    SampleRows added(result.total.count(), result.total.width);
+    addScaled(irradiance, scale, result.channels, added);
+    addScaled(irradiance, scale, result.channels, result.total);
+    share = float(norm(added) / norm(result.total));
+    ++result.bounces;
   }
 };
 
@@ -132,37 +146,41 @@ SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const S
 }
 
 BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, const BuriedFill& fill, int bounces,
-                                   float stopThreshold, Job& job, const BounceCheckpoint* checkpoint) {
+                                   BounceGather& gather, AreaMeans* means, const BuriedFill& fill,
+                                   int bounces, float stopThreshold, Job& job,
+                                   const BounceCheckpoint* checkpoint) {
   const BounceColours colours(scene.materials);
   Chain chain;
   BounceResult& result = chain.result;
   result.channels = colours.channels;
   result.total = directRows(direct, colours.channels);
-  result.beforeLast = result.total;
-  chain.last = directRows(direct, colours.chainChannels);
+  result.surface = SampleRows(result.total.count(), result.total.width);
+  chain.source = directRows(direct, colours.chainChannels);
   if (checkpoint) chain.restore(checkpoint->saved, bounces);
+  if (means && result.bounces == 0)
+    chain.source = means->corrected(chain.source, repeated(means->direct(), colours.chainChannels));
   Rgb power(1);
   for (int k = 0; k < result.bounces; ++k) power *= colours.common;
-  job.begin("bounces", gather.rayCount() * bounces, "rays");
-  job.progress(gather.rayCount() * result.bounces, gather.rayCount() * bounces);
-  while (result.bounces < bounces && !chain.endsBelow(stopThreshold)) {
+  const double rays = gather.rayCount() + (means ? means->rayCount() : 0);
+  job.begin("bounces", rays * bounces, "rays");
+  job.progress(rays * result.bounces, rays * bounces);
+  while (result.bounces < bounces && !(result.bounces > 0 && chain.share < stopThreshold)) {
+    addScaled(chain.source, colours.factored ? power : Rgb(1), colours.channels, result.surface);
     SampleRows leaving;
     if (colours.factored) {
-      leaving = chain.last;
+      leaving = chain.source;
       for (float& x : leaving.values) x /= kPiF;
       power *= colours.common;
     } else {
-      leaving = leavingRadiance(scene, surface, chain.last, colours.chainChannels);
+      leaving = leavingRadiance(scene, surface, chain.source, colours.chainChannels);
     }
-    chain.last = gather.irradiance(leaving, job);
-    fill.apply(chain.last.values, chain.last.stride);
-    result.beforeLast = result.total;
-    addScaled(chain.last, colours.factored ? power : Rgb(1), colours.channels, result.total);
-    ++result.bounces;
+    SampleRows next = gather.irradiance(leaving, job);
+    fill.apply(next.values, next.stride);
+    chain.add(next, colours.factored ? power : Rgb(1));
+    chain.source = means ? means->corrected(next, means->gather(leaving, job)) : std::move(next);
     if (checkpoint && checkpoint->keep) checkpoint->keep(chain.save());
   }
-  job.progress(gather.rayCount() * bounces, gather.rayCount() * bounces);
+  job.progress(rays * bounces, rays * bounces);
   return std::move(chain.result);
 }
 

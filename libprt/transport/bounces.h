@@ -2,6 +2,7 @@
 // The chain of diffuse bounces between the vertices of a scene. Internal to transport.
 
 #include "libprt/core/job.h"
+#include "libprt/transport/area_means.h"
 #include "libprt/transport/bounce_gather.h"
 #include "libprt/transport/buried.h"
 #include "libprt/transport/transfer_bake.h"
@@ -31,15 +32,16 @@ SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const S
 struct BounceResult {
   int channels = 1;
   int bounces = 0;
-  SampleRows total;       ///< e_0 + ... + e_bounces
-  SampleRows beforeLast;  ///< e_0 + ... + e_(bounces-1)
+  SampleRows total;    ///< e_0 + ... + e_bounces
+  SampleRows surface;  ///< e_0 + ... + e_(bounces-1), each as the next bounce was gathered from it
 };
 
 /// Adds bounces to the direct irradiance until `bounces` are done or one adds less than `stopThreshold` of
-/// the total (Frobenius norms). `gather` must gather at the surface set itself. `checkpoint` may be null.
+/// the total (Frobenius norms). `gather` must gather at the surface set itself. Without `means` light leaves
+/// from the bare values at the vertices. `checkpoint` may be null.
 BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, const BuriedFill& fill, int bounces,
-                                   float stopThreshold, Job& job,
+                                   BounceGather& gather, AreaMeans* means, const BuriedFill& fill,
+                                   int bounces, float stopThreshold, Job& job,
                                    const BounceCheckpoint* checkpoint = nullptr);
 
 }  // namespace prt

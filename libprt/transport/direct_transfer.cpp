@@ -131,7 +131,8 @@ void DirectBake::advance(Job& job, const std::function<bool()>& rest) {
   double done = 0;
   for (std::size_t t = 0; t < b.tileRays.size(); ++t)
     done += double(b.tileSize(t)) * std::min<double>(b.tileRays[t], b.ends.back());
-  job.begin(b.settings.phase, double(b.count()) * b.ends.back(), "rays", done);
+  const double total = std::max(b.settings.phaseRays, double(b.count()) * b.ends.back());
+  job.begin(b.settings.phase, total, "rays", b.settings.phaseRaysBefore + done);
   while (b.least() < target)
     if (!b.trace(b.least(), b.nextStop(b.least(), target), job, rest)) return;
   if (b.buried.empty()) b.findBuriedSamples(job);

@@ -39,6 +39,8 @@ struct DirectSettings {
   /// bounces trace again what is not remembered. Hits are traced a little slower than mere shadows.
   std::size_t hitMemory = 0;
   std::string phase = "direct transfer";  ///< name of the phase that advance() begins
+  /// Rays of all bakes that share the phase, and of those before this one; 0 = it has the phase for itself.
+  double phaseRays = 0, phaseRaysBefore = 0;
 
   /// Those that decide the product's values.
   bool sameValues(const DirectSettings& o) const {

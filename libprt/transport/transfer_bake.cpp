@@ -136,9 +136,13 @@ class Finish {
     bounced.total = padded(direct_.diffuse, std::size_t(shCount(settings_.bands)));
     if (settings_.bounces == 0 || form_ == TransferForm::Visibility) return bounced;
     if (samples_.vertices > 0) {
-      BounceResult chain = bounceBetweenVertices(scene_, samples_, direct_, gather_, fill_, settings_.bounces,
-                                                 settings_.stopThreshold, job_, checkpoint_);
-      return {chain.channels, chain.bounces, std::move(chain.total), std::move(chain.beforeLast)};
+      std::optional<AreaMeans> means;  // previews do without
+      if (settings_.areaMeans && direct_.final())
+        means.emplace(scene_, rays_, samples_, direct_, settings_.hitMemory / 8, job_);
+      BounceResult chain =
+          bounceBetweenVertices(scene_, samples_, direct_, gather_, means ? &*means : nullptr, fill_,
+                                settings_.bounces, settings_.stopThreshold, job_, checkpoint_);
+      return {chain.channels, chain.bounces, std::move(chain.total), std::move(chain.surface)};
     }
     if (surface_->bounces == 0) return bounced;
     bounced.channels = surface_->channels;

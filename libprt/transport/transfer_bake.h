@@ -26,6 +26,7 @@ struct TransferSettings {
   int bounces = 3;                   ///< 0 = shadows only; at most kMaxBounces
   bool shadows = true;               ///< false = nothing is baked, light arrives unchanged
   float stopThreshold = 1e-3f;   ///< end when a bounce adds less than this share of what is there; 0 = never
+  bool areaMeans = true;         ///< bounces leave from means around vertices (area_means.h), not bare values
   std::optional<DType> storage;  ///< f16 or f32; empty: f16 for matrices, else f32
   std::uint64_t seed = 1;
   std::size_t hitMemory = std::size_t{1} << 30;  ///< bytes for remembering hits; changes speed only

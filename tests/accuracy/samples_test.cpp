@@ -64,7 +64,7 @@ Transfer transferAt(const Model& model, const std::shared_ptr<const SampleSet>& 
 
 struct Case {
   std::string mesh;
-  int surfaceRays;  ///< at every vertex, for bounces
+  int surfaceRays;  ///< at every vertex, for bounces; the full run takes the default
   bool always;      ///< also without PRT_FULL
 };
 class AtSamples : public testing::TestWithParam<Case> {};
@@ -79,7 +79,8 @@ TEST_P(AtSamples, BakedIrradianceIsThePathTracers) {
   const auto some = std::make_shared<SampleSet>(test::subset(*model.samples, indices));
 
   for (const int bounces : {0, 3}) {
-    const Transfer surface = bounces > 0 ? coarseSurface(model, bounces, GetParam().surfaceRays) : Transfer{};
+    const int surfaceRays = fullRun() ? TransferSettings{}.rays : GetParam().surfaceRays;
+    const Transfer surface = bounces > 0 ? coarseSurface(model, bounces, surfaceRays) : Transfer{};
     for (const std::string& probe : kProbes) {
       if (!fullRun() && probe != kProbes[0] && probe != kProbes[2]) continue;
       const Light light = test::loadLight(probe);

@@ -4,6 +4,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
 #include "libprt/transport/bake_rays.h"
+#include "libprt/transport/path_tracer.h"
 #include "tests/transport/bake_support.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ TEST(Bounces, WallsOfACornerHaveConstantRadiosity) {
   const Rgb albedo(0.8f, 0.5f, 0.3f);
   for (const double degrees : {60.0, 90.0}) {
     const double f = (1 - std::cos(radians(degrees))) / 2;
-    const BakeInput input(test::dihedral(radians(degrees), 12), albedo);
+    const BakeInput input(test::dihedral(radians(degrees), 20), albedo);
     const std::vector<Rgb> e = irradianceOf(input, input.transfer(settings(1024, 40)), constantLight(Rgb(1)));
     for (std::size_t v = 0; v < e.size(); ++v) {
       const Vec3 p = input.scene->mesh.positions[v];
@@ -102,7 +103,9 @@ TEST(Bounces, FurnaceFillsFromBelow) {
   const BakeInput input(rock(24), Rgb(1));
   std::vector<float> before(input.samples->size(), 0);
   for (const int k : {0, 1, 2, 4, 40}) {
-    const std::vector<Rgb> e = irradianceOf(input, input.transfer(settings(256, k)), constantLight(Rgb(1)));
+    TransferSettings fromVertices = settings(256, k);
+    fromVertices.areaMeans = false;
+    const std::vector<Rgb> e = irradianceOf(input, input.transfer(fromVertices), constantLight(Rgb(1)));
     for (std::size_t v = 0; v < e.size(); ++v) {
       EXPECT_GE(e[v].x / kPiF, before[v] - 1e-5f);
       EXPECT_LE(e[v].x / kPiF, 1 + 1e-5f);
@@ -110,6 +113,30 @@ TEST(Bounces, FurnaceFillsFromBelow) {
     }
   }
   EXPECT_GT(*std::min_element(before.begin(), before.end()), 0.98f);
+}
+
+/// Flat faces hide part of what smooth normals see, so a coarse furnace does not fill up: it ends where path
+/// tracing ends, and never above 1.
+TEST(Bounces, CoarseFurnaceLosesWhatItsFacesHide) {
+  const BakeInput input(rock(24), Rgb(1));
+  Job job;
+  LightRig rig;
+  rig.constant = Rgb(1);
+  PathOptions path;
+  path.bounces = 4;
+  const PathTracer tracer(*input.scene, rig, job);
+  double truth = 0, baked = 0, bare = 0;
+  for (const Rgb& e : irradianceAtSamples(tracer, *input.samples, {}, 1024, path, job).mean)
+    truth += 1 - e.x / kPi;
+  TransferSettings s = settings(1024, 4);
+  for (const Rgb& e : irradianceOf(input, input.transfer(s), constantLight(Rgb(1)))) {
+    EXPECT_LE(e.x / kPiF, 1 + 1e-5f);
+    baked += 1 - e.x / kPi;
+  }
+  s.areaMeans = false;
+  for (const Rgb& e : irradianceOf(input, input.transfer(s), constantLight(Rgb(1)))) bare += 1 - e.x / kPi;
+  EXPECT_LT(bare, 0.1 * truth) << "nothing to tell apart";
+  EXPECT_NEAR(baked / truth, 1, 0.2);
 }
 
 /// A sheet that reflects on both sides keeps a furnace full; one that does not leaves shadows behind it.
@@ -222,7 +249,9 @@ Vectors vectorsOf(const Array& array) {
 
 TEST(Bounces, AgreeWithPlainRecursionRayByRay) {
   const BakeInput input(twoObjects({0.8f, 0.4f, 0.1f}, {0.3f, 0.9f, 0.5f}));
-  const Transfer direct = input.transfer(settings(256, 0)), transfer = input.transfer(settings(256, 3));
+  TransferSettings fromVertices = settings(256, 3);
+  fromVertices.areaMeans = false;
+  const Transfer direct = input.transfer(settings(256, 0)), transfer = input.transfer(fromVertices);
   ASSERT_EQ(transfer.form, TransferForm::Diffuse);
   ASSERT_EQ(transfer.channels, 3);
   const auto rays = allPlainRays(input, RaySpread::Cosine, 256);
@@ -246,6 +275,7 @@ TEST(Bounces, MatricesAgreeWithPlainGatherRayByRay) {
   const BakeInput input(twoObjects({0.8f, 0.4f, 0.1f}, {0.3f, 0.9f, 0.5f}));
   TransferSettings s0 = settings(256, 0, TransferForm::Matrix), s2 = settings(256, 2, TransferForm::Matrix);
   s0.storage = s2.storage = DType::f32;
+  s2.areaMeans = false;
   const Transfer direct = input.transfer(s0), transfer = input.transfer(s2);
   ASSERT_EQ(transfer.channels, 3);
   const Array before = expandedMatrices(direct), after = expandedMatrices(transfer);
@@ -458,7 +488,7 @@ TEST(Bounces, GoOnFromAnyOfThemToTheSameBits) {
         EXPECT_EQ(resumed.surface.bytes, whole.surface.bytes);
       }
       // What is of another bake is not taken up.
-      for (const char* name : {"bounces", "total", "before_last", "last"}) {
+      for (const char* name : {"bounces", "share", "total", "before_last", "last"}) {
         std::map<std::string, Array> other = states[1];
         other[name].bytes.pop_back();
         std::size_t all = 0;
@@ -487,7 +517,7 @@ TEST(Bounces, AChainThatHasEndedIsNotGoneOnWith) {
 
 TEST(TransferBake, CancellingStopsEveryPhase) {
   const BakeInput input(rock(24), Rgb(0.6f));
-  for (const std::string phase : {"direct transfer", "bounces", "transfer matrices"}) {
+  for (const std::string phase : {"direct transfer", "area means", "bounces", "transfer matrices"}) {
     Job* self = nullptr;
     Job job(
         [&](const Progress& p) {
