@@ -1,17 +1,17 @@
 #include "ui/bench.h"
 
 #include "libprt/core/error.h"
+#include "ui/bench_bakes.h"
+#include "ui/bench_hand.h"
 #include "ui/main_window.h"
 #include "ui/model/session.h"
 #include "ui/viewport/viewport.h"
-#include "ui/widgets/property_row.h"
+#include "ui/widgets/parameter_slider.h"
 
 #include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QEventLoop>
-#include <QMouseEvent>
 #include <QScrollArea>
-#include <QWindow>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <functional>
 #include <vector>
 
 namespace prt::ui {
@@ -27,9 +26,9 @@ namespace prt::ui {
 namespace {
 
 constexpr QSize kViewport(1280, 720);
-constexpr double kPatience = 300;               // seconds for anything to be read or baked
+constexpr double kPatienceForFrame = 5;         // seconds
 constexpr double kFrameOfScreen = 1000.0 / 60;  // milliseconds: no hand is faster than the screen
-constexpr int kPassesOfLongBake = 1 << 20;
+constexpr int kRaysOfLongBake = 1 << 20;
 
 // Milliseconds of processor time that this program has used.
 double cpuMilliseconds() {
@@ -62,59 +61,62 @@ struct Times {
   }
 };
 
+// How the hand moves: to and fro, no two places after each other the same.
+struct Swing {
+  int reach = 40, step = 4;  // steps to one side, and pixels of a step
+  int clear = 8;             // pixels, beyond what counts as a click
+
+  int offset(int move) const {
+    const int at = move % (2 * reach);
+    return clear + step * (at < reach ? at : 2 * reach - at);
+  }
+};
+
 class Bench {
  public:
-  Bench(MainWindow& window, Session& session) : window_(window), session_(session) {
-    QObject::connect(&session, &Session::message, &window,
-                     [this](Severity severity, const QString& text, Place) {
-                       if (severity == Severity::Error && problem_.isEmpty()) problem_ = text;
-                     });
+  Bench(MainWindow& window, Session& session) : window_(window), session_(session), hand_(window, session) {
+    session.project().setQuestion([](const Unsaved&) { return LeaveAnswer{Leave::Discard, {}}; });
   }
 
   nlohmann::json run(const BenchOptions& options) {
-    session_.open(options.input);
-    waitFor([this] { return session_.relighter().scene() != nullptr; });
-    fitViewport();
     nlohmann::json out;
-    edit({{"transfer.kind", "auto"},
-          {"transfer.rays", "32"},
-          {"transfer.bounces", "1"},
-          {"material.model", "lambert"}});
+    QElapsedTimer opening;
+    opening.start();
+    session_.open(options.input);
+    hand_.waitFor([this] { return session_.relighter().transfer() != nullptr; });
+    const double firstPicture = double(opening.nsecsElapsed()) * 1e-6;
+    fitViewport();
+    hand_.edit({{"transfer.kind", "auto"},
+                {"transfer.rays", "32"},
+                {"transfer.bounces", "1"},
+                {"material.model", "lambert"}});
     bake();
     const qreal scale = window_.viewport().devicePixelRatioF();
     out["viewport"] = {std::lround(window_.viewport().width() * scale),
                        std::lround(window_.viewport().height() * scale)};
     out["drawing"] = window_.viewport().canvas().describe().toStdString();
     out["vertices"] = session_.relighter().scene()->mesh.vertexCount();
+    out["open_to_first_preview_ms"] = firstPicture;
     out["light_drag"] = dragInView(Qt::LeftButton, Qt::ShiftModifier, options.frames, false);
-    edit({{"transfer.kind", "matrix"},
-          {"material.model", "phong"},
-          {"material.specular", "0.3"},
-          {"material.exponent", "40"}});
+    hand_.edit({{"transfer.kind", "matrix"},
+                {"material.model", "phong"},
+                {"material.specular", "0.3"},
+                {"material.exponent", "40"}});
     bake();
     out["light_drag_glossy"] = dragInView(Qt::LeftButton, Qt::ShiftModifier, options.frames, false);
     out["exponent_slide"] = slideExponent(options.frames);
     out["orbit"] = dragInView(Qt::MiddleButton, Qt::NoModifier, options.frames, false);
-    edit({{"transfer.rays", std::to_string(kPassesOfLongBake)}});
+    hand_.edit({{"transfer.rays", std::to_string(kRaysOfLongBake)}});
     session_.bakes().bake();
-    waitFor([this] { return session_.relighter().transfer() && session_.bakes().baking(); });
+    hand_.waitFor([this] { return session_.relighter().transfer() && session_.bakes().baking(); });
     out["while_baking"] = dragInView(Qt::LeftButton, Qt::ShiftModifier, 4 * options.frames, true);
     session_.bakes().cancel();
+    out.update(measureBakes(hand_));
+    session_.project().giveUp();
     return out;
   }
 
  private:
-  void waitFor(const std::function<bool()>& done) {
-    QElapsedTimer timer;
-    timer.start();
-    while (!done()) {
-      if (!problem_.isEmpty()) throw ResourceError(problem_.toStdString(), "bench", {});
-      if (timer.elapsed() > 1000 * kPatience)
-        throw ResourceError("the scene was not ready in time", "bench", "use a smaller one");
-      QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
-    }
-  }
-
   // Other sizes would be other work: the window gets whatever it needs around this viewport.
   void fitViewport() {
     const QSize wanted = kViewport / window_.viewport().devicePixelRatioF();
@@ -126,45 +128,29 @@ class Bench {
     }
   }
 
-  void edit(std::initializer_list<std::pair<const char*, std::string>> values) {
-    Recipe next = session_.document().recipe();
-    for (const auto& [path, value] : values) setByPath(next, path, value);
-    session_.document().edit(QStringLiteral("Bench"), next);
-  }
-
   void bake() {
     session_.bakes().bake();
-    waitFor([this] { return session_.bakes().fresh() && session_.jobs().idle(); });
-  }
-
-  void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers modifiers) {
-    QWindow* handle = window_.windowHandle();
-    const bool move = type == QEvent::MouseMove, release = type == QEvent::MouseButtonRelease;
-    QMouseEvent event(type, at, handle->mapToGlobal(QPointF(at)), move ? Qt::NoButton : button,
-                      release ? Qt::NoButton : Qt::MouseButtons(button), modifiers);
-    QCoreApplication::sendEvent(handle, &event);
+    hand_.waitFor([this] { return session_.bakes().fresh() && session_.jobs().idle(); });
   }
 
   // Presses in the middle of a widget, moves to and fro, releases; a new move as soon as the picture of the
-  // last one is on the screen, or at the screen's pace.
-  Times drag(QWidget& widget, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, int frames,
-             bool paced) {
+  // last one is on the screen, or at the screen's pace. Every move must change the picture.
+  Times drag(QWidget& widget, Qt::MouseButton button, Qt::KeyboardModifiers modifiers, const Swing& swing,
+             int frames, bool paced) {
     Canvas& canvas = window_.viewport().canvas();
     const QPoint from = widget.mapTo(&window_, widget.rect().center());
-    send(QEvent::MouseButtonPress, from, button, modifiers);
+    hand_.send(QEvent::MouseButtonPress, from, button, modifiers);
     Times times;
     QElapsedTimer clock;
     clock.start();
     double last = -1, cpuBefore = 0;
     for (int i = -kWarming; i < frames; ++i) {
-      const int swing = (i + kWarming + 1) % (2 * kReach),
-                offset = swing < kReach ? swing : 2 * kReach - swing;
       if (i == 0) cpuBefore = cpuMilliseconds();
       const quint64 before = canvas.frames();
       const double sent = double(clock.nsecsElapsed()) * 1e-6;
-      send(QEvent::MouseMove, from + QPoint(kStep * offset + kClear, 0), button, modifiers);
+      hand_.send(QEvent::MouseMove, from + QPoint(swing.offset(i + kWarming + 1), 0), button, modifiers);
       const double handled = double(clock.nsecsElapsed()) * 1e-6 - sent;
-      waitFor([&] { return canvas.frames() > before; });
+      hand_.waitFor([&] { return canvas.frames() > before; }, kPatienceForFrame);
       const double now = double(clock.nsecsElapsed()) * 1e-6;
       if (i >= 0) {
         times.between.push_back(now - last);
@@ -176,30 +162,31 @@ class Bench {
         QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 1);
     }
     times.cpu = cpuMilliseconds() - cpuBefore;
-    send(QEvent::MouseButtonRelease, from, button, modifiers);
+    hand_.send(QEvent::MouseButtonRelease, from, button, modifiers);
     return times;
   }
 
   nlohmann::json dragInView(Qt::MouseButton button, Qt::KeyboardModifiers modifiers, int frames, bool paced) {
-    return drag(window_.viewport(), button, modifiers, frames, paced).json();
+    return drag(window_.viewport(), button, modifiers, {}, frames, paced).json();
   }
 
+  // A step is a pixel or two: beyond the ends of the slider nothing would change any more.
   nlohmann::json slideExponent(int frames) {
-    auto* row = window_.findChild<PropertyRow*>(QStringLiteral("objects[0].material.exponent"));
+    const QString path = QStringLiteral("objects[0].material.exponent");
     window_.bringToFront(QStringLiteral("material"));
-    for (QWidget* each = row; each; each = each->parentWidget())
-      if (auto* area = qobject_cast<QScrollArea*>(each)) area->ensureWidgetVisible(row);
-    if (!row) throw ResourceError("there is no row for the exponent", "bench", {});
-    return drag(*row->editor(), Qt::LeftButton, Qt::NoModifier, frames, false).json();
+    auto* slider = window_.findChild<ParameterSlider*>(path + QStringLiteral(" slider"));
+    if (!slider) throw ResourceError("there is no slider for the exponent", "bench", {});
+    for (QWidget* each = slider; each; each = each->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(each)) area->ensureWidgetVisible(slider);
+    return drag(*slider, Qt::LeftButton, Qt::NoModifier, {.reach = 14, .step = 2, .clear = 0}, frames, false)
+        .json();
   }
 
   static constexpr int kWarming = 5;  // frames that are not counted
-  static constexpr int kReach = 40, kStep = 4,
-                       kClear = 8;  // of the hand: steps, and pixels; beyond what counts as a click
 
   MainWindow& window_;
   Session& session_;
-  QString problem_;
+  BenchHand hand_;
 };
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
 #include "ui/document_menu.h"
-#include "ui/model/error_estimate.h"
 #include "ui/model/session.h"
 #include "ui/viewport/light_handles.h"
 #include "ui/viewport/view_actions.h"
@@ -22,21 +21,19 @@
 #include "ui/window/commands.h"
 #include "ui/window/keys_overlay.h"
 #include "ui/window/layouts.h"
+#include "ui/window/menus.h"
+#include "ui/window/status_line.h"
 
-#include <QActionGroup>
-#include <QApplication>
 #include <QBuffer>
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QLabel>
+#include <QLayout>
 #include <QMenuBar>
 #include <QPointer>
 #include <QSettings>
 #include <QStatusBar>
 #include <QStatusTipEvent>
-#include <QTimer>
 
-#include <fstream>
 #include <memory>
 
 namespace prt::ui {
@@ -49,13 +46,6 @@ constexpr int kRecoveryWidth = 640;
 constexpr int kThumbWidth = 192, kThumbHeight = 120;
 constexpr int kDefaultWidth = 1440, kDefaultHeight = 900;
 
-QString residentMemory() {
-  std::ifstream file("/proc/self/statm");
-  long total = 0, resident = 0;
-  file >> total >> resident;
-  return QObject::tr("%1 MB").arg(resident * 4096 / 1'000'000);
-}
-
 QByteArray thumbnailOf(Viewport& viewport) {
   const QImage picture = viewport.canvas().grabPicture();
   if (picture.isNull()) return {};
@@ -64,6 +54,14 @@ QByteArray thumbnailOf(Viewport& viewport) {
   picture.scaled(kThumbWidth, kThumbHeight, Qt::KeepAspectRatio, Qt::SmoothTransformation)
       .save(&buffer, "PNG");
   return png;
+}
+
+// As high as what is written in it needs at this width.
+void setWidth(QWidget& bar, int width) {
+  bar.setFixedWidth(width);
+  bar.layout()->activate();
+  bar.resize(width, bar.layout()->hasHeightForWidth() ? bar.layout()->totalHeightForWidth(width)
+                                                      : bar.sizeHint().height());
 }
 
 }  // namespace
@@ -79,10 +77,7 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
       layouts_(new Layouts(*this, layoutPlans(), kLayoutVersion)),
-      fileLabel_(new QLabel),
-      sizeLabel_(new QLabel),
-      memoryLabel_(new QLabel),
-      hintLabel_(new QLabel) {
+      statusLine_(new StatusLine(session, *viewport_, *statusBar())) {
   setObjectName(QStringLiteral("studio"));
   setCentralWidget(viewport_);
   viewport_->addManipulator(lightHandles_);
@@ -90,8 +85,8 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   makeDocks();
   makeSheets();
-  makeMenus();
-  makeStatusBar();
+  makeMenus(*this, {session_, *documents_, *viewActions_, *lightHandles_, *layouts_, *strip_, *palette_,
+                    *keys_, docks_});
   resize(kDefaultWidth, kDefaultHeight);
   if (freshLayout) {
     layouts_->reset();
@@ -200,132 +195,8 @@ QList<BindingGroup> MainWindow::bindings() const {
   return groups + menuBindings(*menuBar());
 }
 
-void MainWindow::makeMenus() {
-  documents_->fillFile(menuBar()->addMenu(tr("&File")));
-  makeEditMenu();
-  makeViewMenu();
-  makeHelpMenu();
-  menuBar()->setCornerWidget(strip_, Qt::TopRightCorner);
-}
-
-void MainWindow::makeEditMenu() {
-  QMenu* menu = menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = menu->addAction(icon(QStringLiteral("edit-undo")), tr("&Undo"), QKeySequence::Undo,
-                                  &session_.document(), &Document::undo);
-  QAction* redo = menu->addAction(icon(QStringLiteral("edit-redo")), tr("&Redo"), QKeySequence::Redo,
-                                  &session_.document(), &Document::redo);
-  const auto refresh = [this, undo, redo] {
-    const Document& document = session_.document();
-    undo->setEnabled(document.canUndo());
-    redo->setEnabled(document.canRedo());
-    undo->setText(document.canUndo() ? tr("&Undo %1").arg(document.undoName()) : tr("&Undo"));
-    redo->setText(document.canRedo() ? tr("&Redo %1").arg(document.redoName()) : tr("&Redo"));
-  };
-  connect(&session_.document(), &Document::stateChanged, this, refresh);
-  refresh();
-  documents_->fillHistory(menu);
-}
-
-void MainWindow::makeViewMenu() {
-  QMenu* menu = menuBar()->addMenu(tr("&View"));
-  viewActions_->fillViewMenu(*menu);
-  QAction* handles =
-      menu->addAction(tr("&Light handles"), QKeySequence(Qt::Key_L), lightHandles_, &Manipulator::setEnabled);
-  handles->setCheckable(true);
-  handles->setChecked(lightHandles_->enabled());
-  handles->setObjectName(QStringLiteral("lightHandles"));
-  menu->addSeparator();
-  menu->addAction(tr("Next &error overlay"), QKeySequence(Qt::Key_E), this,
-                  [this] { session_.errors().cycle(); });
-  menu->addSeparator();
-  for (QDockWidget* dock : docks_) menu->addAction(dock->toggleViewAction());
-  menu->addSeparator();
-  makeLayoutMenu(*menu);
-  makeThemeMenu(*menu);
-}
-
-void MainWindow::makeLayoutMenu(QMenu& view) {
-  QMenu* menu = view.addMenu(tr("&Layout"));
-  auto* group = new QActionGroup(this);
-  int key = Qt::Key_F5;
-  for (const LayoutPlan& plan : layouts_->plans()) {
-    QAction* action = menu->addAction(plan.title, QKeySequence(key++), this,
-                                      [this, name = plan.name] { layouts_->choose(name); });
-    action->setCheckable(true);
-    action->setToolTip(plan.tip);
-    action->setStatusTip(plan.tip);
-    group->addAction(action);
-    connect(layouts_, &Layouts::chosen, action,
-            [action, name = plan.name](const QString& now) { action->setChecked(now == name); });
-    strip_->addLayoutChoice(action);
-  }
-  menu->addSeparator();
-  menu->addAction(icon(QStringLiteral("view-refresh")), tr("Reset window &layout"), this,
-                  &MainWindow::resetLayout);
-}
-
-void MainWindow::makeThemeMenu(QMenu& view) {
-  QMenu* menu = view.addMenu(tr("&Theme"));
-  auto* group = new QActionGroup(this);
-  for (const Theme* each : {&darkTheme(), &lightTheme()}) {
-    QAction* action = menu->addAction(each == &darkTheme() ? tr("&Dark") : tr("&Light"), this, [each] {
-      applyTheme(*qApp, *each);
-      QSettings().setValue(QStringLiteral("theme"), each->name);
-    });
-    action->setCheckable(true);
-    action->setChecked(theme().name == each->name);
-    group->addAction(action);
-  }
-}
-
-void MainWindow::makeHelpMenu() {
-  QMenu* menu = menuBar()->addMenu(tr("&Help"));
-  QAction* find =
-      menu->addAction(icon(QStringLiteral("edit-find")), tr("&Find a command\u2026"), palette_, &Sheet::open);
-  find->setShortcuts({QKeySequence(Qt::CTRL | Qt::Key_K), QKeySequence(Qt::Key_F3)});
-  menu->addAction(icon(QStringLiteral("help-about")), tr("&Keys and mouse"), QKeySequence(Qt::Key_Question),
-                  keys_, &Sheet::open);
-}
-
-void MainWindow::makeStatusBar() {
-  statusBar()->setSizeGripEnabled(false);
-  statusBar()->addWidget(fileLabel_);
-  statusBar()->addWidget(sizeLabel_);
-  statusBar()->addWidget(hintLabel_, 1);
-  statusBar()->addPermanentWidget(memoryLabel_);
-  sizeLabel_->setObjectName(QStringLiteral("sizeLabel"));
-  sizeLabel_->setToolTip(
-      tr("Size of the scene, width \u00d7 height \u00d7 depth. One unit of a file counts as one metre."));
-  hintLabel_->setObjectName(QStringLiteral("hintLabel"));
-  hintLabel_->setAlignment(Qt::AlignCenter);
-  hintLabel_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  memoryLabel_->setObjectName(QStringLiteral("memoryLabel"));
-  memoryLabel_->setToolTip(tr("Memory that the studio uses."));
-  connect(viewport_, &Viewport::hintChanged, this, &MainWindow::refreshHint);
-  connect(&session_.relighter(), &Relighter::sceneChanged, this, &MainWindow::refreshSize);
-  auto* timer = new QTimer(this);
-  connect(timer, &QTimer::timeout, this, [this] { memoryLabel_->setText(residentMemory()); });
-  timer->start(1000);
-  memoryLabel_->setText(residentMemory());
-  refreshHint();
-}
-
-// What the mouse does where it is: a widget's status tip, else the viewport's.
-void MainWindow::refreshHint() {
-  hintLabel_->setText(tip_.isEmpty() ? viewport_->hint() : tip_);
-}
-
-void MainWindow::refreshSize() {
-  const Box3 box = session_.bounds();
-  const Vec3 size = box.high - box.low;
-  const bool any = session_.relighter().scene() && size.x >= 0;
-  const auto text = [](float v) { return QString::number(double(v), 'g', 3); };
-  sizeLabel_->setText(any ? tr("%1 \u00d7 %2 \u00d7 %3 m").arg(text(size.x), text(size.y), text(size.z))
-                          : QString());
-}
-
 void MainWindow::setPictureMode(bool on) {
-  memoryLabel_->setVisible(!on);
+  statusLine_->setMemoryVisible(!on);
   session_.log().setTimeless(on);
   viewport_->setPictureMode(on);
 }
@@ -346,18 +217,14 @@ QStringList MainWindow::dockNames() const {
 
 bool MainWindow::event(QEvent* event) {
   if (event->type() != QEvent::StatusTip) return QMainWindow::event(event);
-  tip_ = static_cast<QStatusTipEvent*>(event)->tip();
-  refreshHint();
+  statusLine_->setTip(static_cast<QStatusTipEvent*>(event)->tip());
   return true;
 }
 
 void MainWindow::refreshTitle() {
-  const Document& document = session_.document();
-  const QString name = document.title().isEmpty() ? tr("Untitled") : document.title();
   setWindowTitle(QStringLiteral("%1%2 \u2014 PRT Studio")
-                     .arg(name, document.modified() ? QStringLiteral(" *") : QString()));
-  fileLabel_->setText(name + (document.modified() ? tr(" \u00b7 edited") : QString()));
-  fileLabel_->setToolTip(document.path());
+                     .arg(documentName(session_.document()),
+                          session_.document().modified() ? QStringLiteral(" *") : QString()));
 }
 
 void MainWindow::offerRecovery() {
@@ -386,12 +253,10 @@ void MainWindow::showLinks() {
 // Along the top of the picture, clear of what the corners say.
 void MainWindow::placeMessage() {
   const int width = std::min(560, viewport_->width() - 48);
-  message_->setFixedWidth(width);
-  message_->adjustSize();
+  setWidth(*message_, width);
   message_->move((viewport_->width() - width) / 2, viewport_->height() - message_->height() - 16);
   message_->raise();
-  recovery_->setFixedWidth(std::min(kRecoveryWidth, viewport_->width() - 48));
-  recovery_->adjustSize();
+  setWidth(*recovery_, std::min(kRecoveryWidth, viewport_->width() - 48));
   recovery_->move((viewport_->width() - recovery_->width()) / 2, kRecoveryTop);
   recovery_->raise();
 }

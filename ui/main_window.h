@@ -5,8 +5,7 @@
 
 #include <QMainWindow>
 
-class QLabel;
-class QMenu;
+class QDockWidget;
 
 namespace prt::ui {
 
@@ -52,19 +51,10 @@ class MainWindow : public QMainWindow {
   QDockWidget* addDock(const QString& title, const QString& name, QWidget* content, Qt::DockWidgetArea area);
   void makeDocks();
   void makeSheets();
-  void makeMenus();
-  void makeEditMenu();
-  void makeViewMenu();
-  void makeLayoutMenu(QMenu& view);
-  void makeThemeMenu(QMenu& view);
-  void makeHelpMenu();
-  void makeStatusBar();
   void refreshTitle();
   void showLinks();
   bool mayClose();
   void placeMessage();
-  void refreshHint();
-  void refreshSize();
 
   Session& session_;
   class DocumentMenu* documents_;
@@ -77,11 +67,7 @@ class MainWindow : public QMainWindow {
   Layouts* layouts_;
   CommandPalette* palette_ = nullptr;
   KeysOverlay* keys_ = nullptr;
-  QLabel* fileLabel_;
-  QLabel* sizeLabel_;
-  QLabel* memoryLabel_;
-  QLabel* hintLabel_;
-  QString tip_;  // of the widget under the pointer
+  class StatusLine* statusLine_;
   QList<QDockWidget*> docks_;
   bool leaving_ = false;  // nothing is asked any more
 };

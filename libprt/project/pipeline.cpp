@@ -98,6 +98,7 @@ class PipelineRun {
   void makePreviewsAfter(const Stage& stage);
   bool leadsToTarget(const Stage& stage) const;
   void keepPreviews();
+  ProductStore::WriteCheck writeCheck();
   void store(const Stage& stage, const State& state);
 
   Pipeline& pipeline_;
@@ -108,6 +109,7 @@ class PipelineRun {
   std::map<std::string, std::string> keys_;
   std::map<std::string, State> states_;
   std::set<std::string> wanted_;
+  std::optional<Clock::time_point> lastWrite_;  // from which on a cancelled run writes nothing more
 };
 
 /// What a stage's function sees of the run.
@@ -153,7 +155,7 @@ class PipelineRun::Run : public StageRun {
     ProductStore* store = run_.pipeline_.store_;
     if (!store || previewing_) return;
     const auto before = Clock::now();
-    store->putCheckpoint(stage_.name, checkpointKey_, save());
+    store->putCheckpoint(stage_.name, checkpointKey_, save(), run_.writeCheck());
     written_ = Clock::now();
     cost_ = written_ - before;
     stored_ = true;
@@ -245,6 +247,7 @@ void PipelineRun::runStage(const Stage& stage) {
 }
 
 void PipelineRun::finish(const Stage& stage, State state, bool made) {
+  if (made && pipeline_.store_ && stage.stored) job_.begin("writing", 0);
   if (made) store(stage, state);
   pipeline_.cache_[stage.name] = state;
   const State& kept = states_[stage.name] = std::move(state);
@@ -286,9 +289,23 @@ void PipelineRun::keepPreviews() {
   }
 }
 
+/// Ends writes of a cancelled run once its time for them is over.
+ProductStore::WriteCheck PipelineRun::writeCheck() {
+  const double most = pipeline_.options_.lastWriteSeconds;
+  if (most <= 0) return {};
+  return [this, most] {
+    if (!job_.cancelled()) return;
+    const auto now = Clock::now();
+    if (!lastWrite_)
+      lastWrite_ = now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most));
+    if (now >= *lastWrite_) throw Cancelled();
+  };
+}
+
 void PipelineRun::store(const Stage& stage, const State& state) {
   if (pipeline_.store_ && stage.stored)
-    pipeline_.store_->put(stage.name, state.key, {state.product->save(), state.level, state.levels});
+    pipeline_.store_->put(stage.name, state.key, {state.product->save(), state.level, state.levels},
+                          writeCheck());
 }
 
 Pipeline::Pipeline(ProductStore* store, Options options, const std::vector<Stage>& table)

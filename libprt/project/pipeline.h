@@ -53,6 +53,9 @@ class Pipeline {
   struct Options {
     std::filesystem::path folder = ".";  ///< relative paths of the recipe start here
     double checkpointSeconds = 5;  ///< least time between checkpoints, never over 10 % of a run; 0 = no limit
+    /// How long a cancelled run may go on writing previews and checkpoints; 0 = until they are written. What
+    /// does not fit is given up: the last checkpoint and what was stored before stay.
+    double lastWriteSeconds = 0;
   };
 
   /// `store` may be null: nothing outlives this object then. Keeps references to store and table.

@@ -5,6 +5,7 @@
 #include "libprt/core/array.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,12 +53,16 @@ class ProductStore {
     int levels = 0;
   };
   virtual std::unique_ptr<Stored> find(const std::string& stage, const std::string& key) = 0;
+  /// Called again and again during a write; what it throws ends the write, and the store holds what it held.
+  using WriteCheck = std::function<void()>;
   /// Replaces what is there under the stage and key.
-  virtual void put(const std::string& stage, const std::string& key, const Stored& stored) = 0;
+  virtual void put(const std::string& stage, const std::string& key, const Stored& stored,
+                   const WriteCheck& check = {}) = 0;
 
   /// Unfinished work of a stage: accumulators and the range of samples in them.
   virtual std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) = 0;
-  virtual void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) = 0;
+  virtual void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data,
+                             const WriteCheck& check = {}) = 0;
   /// Removes it, if there is one.
   virtual void dropCheckpoint(const std::string& stage, const std::string& key) = 0;
 

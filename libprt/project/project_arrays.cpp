@@ -116,7 +116,7 @@ std::vector<ProductRow> readProductRows(Database& database) {
 }
 
 std::string writeArray(Database& database, std::int64_t product, const std::string& name, const Array& array,
-                       std::size_t& uncommitted) {
+                       std::size_t& uncommitted, const std::function<void()>& check) {
   if (byteCount(array.shape, array.dtype) != std::int64_t(array.bytes.size()))
     throw std::logic_error("array '" + name + "' does not have as many bytes as its shape says");
   const std::string dtype = toString(array.dtype), shape = shapeText(array.shape);
@@ -125,6 +125,7 @@ std::string writeArray(Database& database, std::int64_t product, const std::stri
   Statement insert(database, "INSERT INTO chunk(array, number, bytes, checksum, data) VALUES(?, ?, ?, ?, ?)");
   const std::span<const std::byte> all(array.bytes);
   for (std::size_t begin = 0, number = 0; begin < all.size(); begin += kChunkBytes, ++number) {
+    if (check) check();
     const auto raw = all.subspan(begin, std::min(kChunkBytes, all.size() - begin));
     const std::vector<std::byte> packed = compress(raw);
     const std::string checksum = checksumOf(packed);

@@ -229,16 +229,17 @@ void ProjectFile::drop(std::int64_t id) {
 }
 
 void ProjectFile::write(const std::string& stage, const std::string& key, const std::string& role,
-                        const Stored& stored) {
+                        const Stored& stored, const WriteCheck& check) {
   std::lock_guard lock(mutex_);
   Database& database = work();
   Transaction transaction(database);
+  if (std::exchange(orphans_, true)) deleteOrphans(database);
   ProductInfo info{stage, key, role == kCheckpoint, stored.level, stored.levels, stored.data.meta, {}};
   const std::int64_t id = nextProductId(database);
   std::size_t uncommitted = 0;
   for (const auto& [name, array] : stored.data.arrays) {
     info.arrays.push_back(
-        {name, array.dtype, array.shape, 0, 0, writeArray(database, id, name, array, uncommitted)});
+        {name, array.dtype, array.shape, 0, 0, writeArray(database, id, name, array, uncommitted, check)});
   }
   // The row that makes it a product comes last, together with the end of the one that it replaces.
   for (const ProductRow& row : readProductRows(database))
@@ -255,6 +256,7 @@ void ProjectFile::write(const std::string& stage, const std::string& key, const 
   insert.bind(info.meta).bind(productChecksum(info, role)).run();
   writeProject();
   transaction.commit();
+  orphans_ = false;
   written_ = true;
 }
 
@@ -262,8 +264,9 @@ std::unique_ptr<ProductStore::Stored> ProjectFile::find(const std::string& stage
   return read(stage, key, kProduct);
 }
 
-void ProjectFile::put(const std::string& stage, const std::string& key, const Stored& stored) {
-  write(stage, key, kProduct, stored);
+void ProjectFile::put(const std::string& stage, const std::string& key, const Stored& stored,
+                      const WriteCheck& check) {
+  write(stage, key, kProduct, stored, check);
 }
 
 std::unique_ptr<ProductData> ProjectFile::findCheckpoint(const std::string& stage, const std::string& key) {
@@ -271,8 +274,9 @@ std::unique_ptr<ProductData> ProjectFile::findCheckpoint(const std::string& stag
   return stored ? std::make_unique<ProductData>(std::move(stored->data)) : nullptr;
 }
 
-void ProjectFile::putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) {
-  write(stage, key, kCheckpoint, {data, 0, 0});
+void ProjectFile::putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data,
+                                const WriteCheck& check) {
+  write(stage, key, kCheckpoint, {data, 0, 0}, check);
 }
 
 void ProjectFile::dropCheckpoint(const std::string& stage, const std::string& key) {
@@ -293,20 +297,15 @@ std::vector<ProductInfo> ProjectFile::contents() {
   return all;
 }
 
-void ProjectFile::keepOnly(const std::set<std::string>& keys) {
-  std::lock_guard lock(mutex_);
-  Database& database = work();
-  Transaction transaction(database);
-  for (const ProductRow& row : readProductRows(database))
-    if (!keys.contains(row.info.key)) deleteProduct(database, row.id);
-  writeProject();
-  transaction.commit();
-  database.execute("PRAGMA incremental_vacuum");
-}
-
 void ProjectFile::save() {
   std::lock_guard lock(mutex_);
   if (!work_) return;
+  if (orphans_) {
+    Transaction transaction(*work_);
+    deleteOrphans(*work_);
+    transaction.commit();
+    orphans_ = false;
+  }
   const fs::path from = work_->file();
   work_.reset();  // the last commit is on disk, the journal is gone
   try {

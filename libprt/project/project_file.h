@@ -76,9 +76,11 @@ class ProjectFile : public ProductStore {
   /// Throws FileError when what is stored is damaged. In a working copy it is removed instead, with a
   /// warning, and counts as not there: whoever bakes makes it anew.
   std::unique_ptr<Stored> find(const std::string& stage, const std::string& key) override;
-  void put(const std::string& stage, const std::string& key, const Stored& stored) override;
+  void put(const std::string& stage, const std::string& key, const Stored& stored,
+           const WriteCheck& check = {}) override;
   std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override;
-  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override;
+  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data,
+                     const WriteCheck& check = {}) override;
   void dropCheckpoint(const std::string& stage, const std::string& key) override;
   std::string sourceHash(const std::string& path) override;
   void putSourceHash(const std::string& path, const std::string& hash) override;
@@ -91,6 +93,9 @@ class ProjectFile : public ProductStore {
   /// Removes every product and checkpoint whose key is not among these (Pipeline::liveKeys), and gives
   /// the space back.
   void keepOnly(const std::set<std::string>& keys);
+  /// Bounds what the working copy holds beside the products of these keys (what undo may want again): the
+  /// oldest go until the rest of them takes no more than `bytes` in the file. What is saved stays.
+  void keepRecent(const std::set<std::string>& keys, std::int64_t bytes, Job& job);
 
   /// Makes the working copy the saved project: flushed to disk, verified, then renamed over it. When that
   /// fails the saved project and the working copy are as before, and it can be tried again.
@@ -132,7 +137,8 @@ class ProjectFile : public ProductStore {
   void rewriteProject();
   std::string writeCopy(const std::filesystem::path& to, const SaveOptions& options, Job& job);
   std::unique_ptr<Stored> read(const std::string& stage, const std::string& key, const std::string& role);
-  void write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored);
+  void write(const std::string& stage, const std::string& key, const std::string& role, const Stored& stored,
+             const WriteCheck& check);
   void drop(std::int64_t id);
 
   mutable std::recursive_mutex mutex_;  // guards everything below but file_
@@ -143,6 +149,7 @@ class ProjectFile : public ProductStore {
   // Checksum of the saved project that the working copy began from; while it is being saved, of both.
   std::string base_;
   bool resumed_ = false, written_ = false;
+  bool orphans_ = false;  // a write was broken off: what it left goes with the next one
 };
 
 }  // namespace prt

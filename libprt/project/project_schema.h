@@ -6,6 +6,7 @@
 #include "libprt/project/project_file.h"
 #include "libprt/project/sqlite.h"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -51,9 +52,9 @@ struct ProductRow {
 std::vector<ProductRow> readProductRows(Database& database);
 
 /// Appends an array's chunks and its row. Commits whenever enough was written; a transaction is open
-/// before and after. Returns its checksum.
+/// before and after. Returns its checksum. `check` is called before every chunk and may throw.
 std::string writeArray(Database& database, std::int64_t product, const std::string& name, const Array& array,
-                       std::size_t& uncommitted);
+                       std::size_t& uncommitted, const std::function<void()>& check);
 /// Reads and checks one array of a product.
 Array readArray(Database& database, std::int64_t product, const ArrayInfo& info);
 

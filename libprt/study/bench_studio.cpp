@@ -30,6 +30,7 @@ namespace fs = std::filesystem;
 /// What must hold on two cores without a graphics card.
 constexpr double kDiffuseFps = 30, kGlossyFps = 20;
 constexpr double kSliderMs = 50, kGapMs = 50, kWorstGapMs = 150;
+constexpr double kPreviewMs = 1000, kAnsweredMs = 100, kCancelledMs = 1000;
 /// A rock of 40 962 vertices stands for the 35 000 of the scans that people try first.
 constexpr const char* kScene =
     R"({"mesh": {"path": "builtin:rock", "detail": 2}, "material": {"albedo": [0.7, 0.5, 0.4]}})";
@@ -159,9 +160,15 @@ BenchResult benchStudio(Job& job, int repetitions) {
   const Limit limits[] = {
       {"light_drag", "fps", "light drag, diffuse: frames a second", "1/s", kDiffuseFps, true},
       {"light_drag_glossy", "fps", "light drag, glossy 25x25: frames a second", "1/s", kGlossyFps, true},
-      {"exponent_slide", "p95_ms", "exponent slider to new frame", "ms", kSliderMs, false},
+      {"exponent_slide", "worst_ms", "exponent slider to new frame, the worst", "ms", kSliderMs, false},
       {"while_baking", "p99_ms", "gaps between frames while baking, 99th percentile", "ms", kGapMs, false},
-      {"while_baking", "worst_ms", "worst gap between frames while baking", "ms", kWorstGapMs, false}};
+      {"while_baking", "worst_ms", "worst gap between frames while baking", "ms", kWorstGapMs, false},
+      {"bake_diffuse", "first_preview_ms", "diffuse bake to its first preview", "ms", kPreviewMs, false},
+      {"bake_glossy", "first_preview_ms", "glossy bake to its first preview", "ms", kPreviewMs, false},
+      {"bake_diffuse", "cancel_answered_ms", "diffuse bake: cancel answered", "ms", kAnsweredMs, false},
+      {"bake_glossy", "cancel_answered_ms", "glossy bake: cancel answered", "ms", kAnsweredMs, false},
+      {"bake_diffuse", "cancel_done_ms", "diffuse bake: cancel done", "ms", kCancelledMs, false},
+      {"bake_glossy", "cancel_done_ms", "glossy bake: cancel done", "ms", kCancelledMs, false}};
   // The one that is nearest to its limit, or farthest beyond, counts.
   BenchResult result;
   for (const Limit& l : limits) {
@@ -175,6 +182,7 @@ BenchResult benchStudio(Job& job, int repetitions) {
   }
   result.details["orbit_fps"] = number("orbit", "fps");
   result.details["vertices"] = measured.at("vertices");
+  result.details["open_to_first_preview_ms"] = measured.at("open_to_first_preview_ms");
   job.advance(1);
   return result;
 }

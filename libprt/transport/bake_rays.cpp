@@ -14,7 +14,7 @@ namespace prt {
 namespace {
 
 constexpr int kColumns = RayTable::kColumns;
-constexpr int kFirstLevel = 64;
+constexpr int kFirstLevel = 16;  // so that a picture comes at once
 
 std::uint64_t originKey(const SampleSet& samples, std::size_t sample, std::uint64_t seed) {
   const Vec3 p = samples.origin[sample] + 0.0f;  // -0 and 0 are one place

@@ -72,7 +72,7 @@ class DirectBake {
              std::shared_ptr<const SampleSet> samples, const DirectSettings& settings);
   ~DirectBake();
 
-  /// Levels of refinement; level() of them are complete. The first takes 64 rays per sample.
+  /// Levels of refinement; level() of them are complete. The first takes 16 rays per sample.
   int level() const;
   int levels() const;
   bool done() const { return level() == levels(); }

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace prt {
 namespace {
@@ -123,6 +125,35 @@ TEST(Pipeline, PreviewsAreNoExcuseNotToFinish) {
   EXPECT_EQ(found.state("bounces")->level, 2);
   const Products done = runOn(toy, &store, small());
   EXPECT_TRUE(done.state("bounces")->final());
+}
+
+// A store that takes so long that whoever cancelled would wait for it.
+class SlowStore : public MemoryStore {
+ public:
+  void put(const std::string& stage, const std::string& key, const Stored& stored,
+           const WriteCheck& check) override {
+    for (int i = 0; check && i < 4; ++i) check(), std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    MemoryStore::put(stage, key, stored, {});
+  }
+};
+
+TEST(Pipeline, ACancelledRunMayBeGivenLittleTimeToWrite) {
+  for (const bool hurry : {false, true}) {
+    ToyStages toy;
+    SlowStore store;
+    Watcher watcher;
+    toy.cancelAtPass = 2;
+    Pipeline pipeline(&store, {.folder = ".", .checkpointSeconds = 0, .lastWriteSeconds = hurry ? 1e-6 : 60},
+                      toy.table);
+    Job job;
+    EXPECT_THROW(pipeline.run(small(), kAll, job, &watcher), Cancelled);
+    const Products found = Pipeline(&store, {".", 0}, toy.table).find(small(), kAll);
+    EXPECT_EQ(found.state("bounces") != nullptr, !hurry);
+    // The checkpoint was written before and is there in any case.
+    toy.cancelAtPass = -1;
+    runOn(toy, &store, small());
+    EXPECT_EQ(toy.passes, 4) << "work was done twice";
+  }
 }
 
 TEST(Pipeline, ResumesWithTheSameBits) {

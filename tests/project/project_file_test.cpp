@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -137,6 +138,82 @@ TEST_F(ProjectFileTest, LargeArraysSpanChunksAndCommits) {
   project->put("s", "k", big);
   project->save();
   EXPECT_TRUE(equal(ProjectFile::open(file)->find("s", "k")->data, big.data));
+  EXPECT_EQ(verifyError(), "no error");
+}
+
+// Far enough that commits were made: what they hold must not be taken for a product, nor stay for good.
+TEST_F(ProjectFileTest, AWriteThatIsBrokenOffLeavesWhatWasThere) {
+  std::mt19937_64 random(2);
+  std::vector<std::uint32_t> values(5 << 20);
+  for (auto& v : values) v = std::uint32_t(random());
+  const ProductStore::Stored big{{"{}",
+                                  {{"v", Array::from<std::uint32_t>(std::span<const std::uint32_t>(values),
+                                                                    {std::int64_t(values.size())})}}},
+                                 1,
+                                 1};
+  const auto breakOff = [&](ProjectFile& project, int after) {
+    int checks = 0;
+    const auto check = [&] {
+      if (++checks > after) throw Cancelled();
+    };
+    EXPECT_THROW(project.put("direct", "key", big, check), Cancelled);
+    EXPECT_THROW(project.putCheckpoint("direct", "going on", big.data, check), Cancelled);
+  };
+  std::int64_t without = 0;
+  {
+    const auto project = ProjectFile::openForWork(file);
+    project->put("direct", "key", sample());
+    without = project->bytes();
+    for (const int after : {0, 1, 9, 18}) breakOff(*project, after);
+    EXPECT_GT(project->bytes(), without + (8 << 20)) << "nothing had been committed";
+    EXPECT_TRUE(equal(project->find("direct", "key")->data, sample().data));
+    EXPECT_EQ(project->findCheckpoint("direct", "going on"), nullptr);
+    EXPECT_EQ(project->contents().size(), 1u);
+  }
+  {  // as a killed process would leave it, too
+    const auto project = ProjectFile::openForWork(file);
+    EXPECT_TRUE(project->resumed());
+    EXPECT_TRUE(equal(project->find("direct", "key")->data, sample().data));
+    breakOff(*project, 12);
+    project->put("direct", "later", sample());
+    project->keepOnly({"key", "later"});
+    EXPECT_LT(project->bytes(), without + (1 << 20)) << "the rest was not cleared away";
+    breakOff(*project, 12);
+    project->save();
+  }
+  EXPECT_EQ(verifyError(), "no error");
+  EXPECT_TRUE(equal(ProjectFile::open(file)->find("direct", "key")->data, sample().data));
+  EXPECT_LT(fs::file_size(file), std::uintmax_t(without + (24 << 20)));
+}
+
+TEST_F(ProjectFileTest, WhatUndoMayWantIsKeptUpToABound) {
+  const auto project = ProjectFile::openForWork(file);
+  std::mt19937_64 random(3);
+  const auto megabyte = [&] {
+    std::vector<std::uint64_t> values(1 << 17);
+    for (auto& v : values) v = random();
+    std::vector<std::int32_t> half(values.size() * 2);
+    std::memcpy(half.data(), values.data(), half.size() * 4);
+    return Array::from<std::int32_t>(std::span<const std::int32_t>(half), {std::int64_t(half.size())});
+  };
+  for (const char* key : {"wanted", "first", "second", "third"})
+    project->put("direct", key, {{"{}", {{"v", megabyte()}}}, 1, 1});
+  project->putCheckpoint("direct", "going on", {"{}", {{"v", megabyte()}}});
+  const auto keys = [&] {
+    std::set<std::string> found;
+    for (const ProductInfo& info : project->contents()) found.insert(info.key);
+    return found;
+  };
+  Job job;
+  project->keepRecent({"wanted"}, 100 << 20, job);
+  EXPECT_EQ(keys().size(), 5u) << "there is room";
+  const auto before = project->bytes();
+  project->keepRecent({"wanted"}, 5 << 19, job);  // two of the four and a half
+  EXPECT_EQ(keys(), (std::set<std::string>{"wanted", "third", "going on"})) << "the oldest go";
+  EXPECT_LT(project->bytes(), before - (3 << 19));
+  project->keepRecent({"wanted", "third"}, 0, job);
+  EXPECT_EQ(keys(), (std::set<std::string>{"wanted", "third"}));
+  project->save();
   EXPECT_EQ(verifyError(), "no error");
 }
 

@@ -95,14 +95,18 @@ class MemoryStore : public ProductStore {
     const auto found = products.find(stage + key);
     return found == products.end() ? nullptr : std::make_unique<Stored>(found->second);
   }
-  void put(const std::string& stage, const std::string& key, const Stored& stored) override {
+  void put(const std::string& stage, const std::string& key, const Stored& stored,
+           const WriteCheck& check) override {
+    if (check) check();
     products[stage + key] = stored;
   }
   std::unique_ptr<ProductData> findCheckpoint(const std::string& stage, const std::string& key) override {
     const auto found = checkpoints.find(stage + key);
     return found == checkpoints.end() ? nullptr : std::make_unique<ProductData>(found->second);
   }
-  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) override {
+  void putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data,
+                     const WriteCheck& check) override {
+    if (check) check();
     checkpoints[stage + key] = data;
   }
   void dropCheckpoint(const std::string& stage, const std::string& key) override {

@@ -368,8 +368,8 @@ TEST(DirectTransfer, LevelsStartQuickAndEveryOneHasAProduct) {
     rays.push_back(bake.product(job).raysPerSample);
     EXPECT_EQ(bake.product(job).final(), bake.done());
   }
-  EXPECT_EQ(rays, (std::vector<int>{64, 256, 1024, 2048, 3000}));
-  EXPECT_EQ(bake.levels(), 5);
+  EXPECT_EQ(rays, (std::vector<int>{16, 64, 256, 1024, 2048, 3000}));
+  EXPECT_EQ(bake.levels(), 6);
 }
 
 TEST(DirectTransfer, SettingsOutOfRangeAreRefused) {

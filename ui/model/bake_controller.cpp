@@ -214,6 +214,7 @@ void BakeController::start() {
     Listener listener(mailbox, bake);
     baker->pipeline.setFolder(folder);
     baker->pipeline.run(recipe, kWanted, job, &listener);
+    baker->store.keepRecent(baker->pipeline.liveKeys(recipe), kKeptForUndo, job);
   };
   const auto finish = [self = QPointer(this), bake](const JobInfo& job) {
     if (self) self->ended(bake, job);

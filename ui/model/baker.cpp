@@ -20,9 +20,10 @@ std::unique_ptr<ProductStore::Stored> BakeStore::find(const std::string& stage, 
   return file_ ? file_->find(stage, key) : nullptr;
 }
 
-void BakeStore::put(const std::string& stage, const std::string& key, const Stored& stored) {
+void BakeStore::put(const std::string& stage, const std::string& key, const Stored& stored,
+                    const WriteCheck& check) {
   std::lock_guard lock(mutex_);
-  if (file_) file_->put(stage, key, stored);
+  if (file_) file_->put(stage, key, stored, check);
 }
 
 std::unique_ptr<ProductData> BakeStore::findCheckpoint(const std::string& stage, const std::string& key) {
@@ -30,14 +31,20 @@ std::unique_ptr<ProductData> BakeStore::findCheckpoint(const std::string& stage,
   return file_ ? file_->findCheckpoint(stage, key) : nullptr;
 }
 
-void BakeStore::putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data) {
+void BakeStore::putCheckpoint(const std::string& stage, const std::string& key, const ProductData& data,
+                              const WriteCheck& check) {
   std::lock_guard lock(mutex_);
-  if (file_) file_->putCheckpoint(stage, key, data);
+  if (file_) file_->putCheckpoint(stage, key, data, check);
 }
 
 void BakeStore::dropCheckpoint(const std::string& stage, const std::string& key) {
   std::lock_guard lock(mutex_);
   if (file_) file_->dropCheckpoint(stage, key);
+}
+
+void BakeStore::keepRecent(const std::set<std::string>& keys, std::int64_t bytes, Job& job) {
+  std::lock_guard lock(mutex_);
+  if (file_) file_->keepRecent(keys, bytes, job);
 }
 
 std::string BakeStore::sourceHash(const std::string& path) {

@@ -28,7 +28,7 @@ std::vector<LayoutPlan> layoutPlans() {
       {.name = s("relight"),
        .title = QObject::tr("Relight"),
        .tip = QObject::tr("Docks for looking: light and material at hand."),
-       .left = {kLeftWidth, {{{s("scene")}, 180}, {{s("light")}, 468}, {jobsAndLog, 200}}},
+       .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
        .right = {kRightWidth, {{{s("material")}, 500}, {{s("transfer")}, 348}}},
        .hidden = {}},
   };
