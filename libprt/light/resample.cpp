@@ -48,11 +48,12 @@ std::vector<std::vector<Share>> shares(const std::vector<double>& from, const st
 }
 
 /// Lat-long to lat-long: cells are rectangles in (cosine, azimuth).
-Image resampleLatLong(const EnvironmentMap& map, int width, int height) {
+Image resampleLatLong(const EnvironmentMap& map, int width, int height, Job& job) {
   const auto rows = shares(rowBorders(map.height()), rowBorders(height));
   const auto columns = shares(columnBorders(map.width()), columnBorders(width));
   Image image(width, height, 3);
-  for (int y = 0; y < height; ++y)
+  for (int y = 0; y < height; ++y) {
+    job.checkCancelled();
     for (int x = 0; x < width; ++x) {
       DVec3 sum(0);
       for (const Share& row : rows[std::size_t(y)])
@@ -60,6 +61,7 @@ Image resampleLatLong(const EnvironmentMap& map, int width, int height) {
           sum += row.share * column.share * DVec3(map.pixels().rgb(column.from, row.from));
       for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = float(sum[c]);
     }
+  }
   return image;
 }
 
@@ -91,10 +93,9 @@ void addCell(const MapGeometry& texels, const MapGeometry& cells, int x, int y, 
 }
 
 /// Overlaps of all texels with all cells, found at a few points per texel.
-std::vector<Overlap> findOverlaps(const MapGeometry& texels, const MapGeometry& cells) {
+std::vector<Overlap> findOverlaps(const MapGeometry& texels, const MapGeometry& cells, Job& job) {
   const int parts = std::clamp(int(std::ceil(4 * cells.texelAngle() / texels.texelAngle())), 3, 64);
   std::vector<std::vector<Overlap>> rows(std::size_t(cells.height()));
-  Job job;
   parallelFor(job, 0, rows.size(), 1, [&](std::size_t y, std::size_t) {
     for (int x = 0; x < cells.width(); ++x) addCell(texels, cells, x, int(y), parts, rows[y]);
   });
@@ -112,10 +113,11 @@ DVec3 lampPart(const Rgb& c, double mean) {
 
 /// Any mapping to lat-long. Overlaps come from sample points: a cell's parts are exact, those of a texel are
 /// not, so lamps are scaled to what their texel holds, and the rest, where errors average out, as a whole.
-Image resampleAny(const EnvironmentMap& map, int width, int height) {
+Image resampleAny(const EnvironmentMap& map, int width, int height, Job& job) {
   const MapGeometry& texels = map.geometry();
   const MapGeometry cells(EnvironmentMapping::LatLong, width, height);
-  const std::vector<Overlap> overlaps = findOverlaps(texels, cells);
+  const std::vector<Overlap> overlaps = findOverlaps(texels, cells, job);
+  job.checkCancelled();
   std::vector<double> found(map.pixels().pixels(), 0.0);
   for (const Overlap& o : overlaps) found[o.texel] += o.area;
 
@@ -149,14 +151,25 @@ Image resampleAny(const EnvironmentMap& map, int width, int height) {
 }  // namespace
 
 EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height) {
+  Job patient;
+  return toLatLong(map, width, height, patient);
+}
+
+EnvironmentMap toLatLong(const EnvironmentMap& map, int width, int height, Job& job) {
   const bool latLong = map.geometry().mapping() == EnvironmentMapping::LatLong;
-  return EnvironmentMap(latLong ? resampleLatLong(map, width, height) : resampleAny(map, width, height),
-                        EnvironmentMapping::LatLong, map.report().source);
+  return EnvironmentMap(
+      latLong ? resampleLatLong(map, width, height, job) : resampleAny(map, width, height, job),
+      EnvironmentMapping::LatLong, map.report().source);
 }
 
 EnvironmentMap blurredLatLong(const EnvironmentMap& map, double deviation) {
+  Job patient;
+  return blurredLatLong(map, deviation, patient);
+}
+
+EnvironmentMap blurredLatLong(const EnvironmentMap& map, double deviation, Job& job) {
   constexpr int kWidth = 64, kHeight = 32;
-  const EnvironmentMap coarse = toLatLong(map, kWidth, kHeight);
+  const EnvironmentMap coarse = toLatLong(map, kWidth, kHeight, job);
   struct Texel {
     Vec3 direction;
     float area;
@@ -169,7 +182,6 @@ EnvironmentMap blurredLatLong(const EnvironmentMap& map, double deviation) {
   // On the sphere a Gaussian is exp((cos - 1) / deviation^2), von Mises and Fisher's.
   const float sharpness = float(1 / (deviation * deviation));
   Image image(kWidth, kHeight, 3);
-  Job job;
   parallelFor(job, 0, texels.size(), kWidth, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Rgb sum(0);

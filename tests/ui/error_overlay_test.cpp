@@ -13,12 +13,9 @@ namespace {
 
 using test::difference;
 using test::pass;
+using test::s;
 using test::smallScene;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class ErrorOverlayTest : public test::StudioTest {
  protected:
@@ -73,9 +70,22 @@ TEST_F(ErrorOverlayTest, TurningTheLightJudgesAnew) {
   ASSERT_TRUE(measured());
   const std::vector<Vec3> before = errors().map()->vertices;
   session.setEnvironmentAngle(120);
-  ASSERT_TRUE(waitFor([&] { return errors().map()->vertices != before; }));
+  EXPECT_EQ(errors().map()->vertices, before) << "judged on the interface's thread";
+  ASSERT_TRUE(waitFor([&] { return errors().upToDate(); }));
+  EXPECT_NE(errors().map()->vertices, before);
   EXPECT_FALSE(errors().measuring()) << "nothing is traced again";
+  // Many moves, and what is shown at last is of the last one.
+  for (int degrees = 0; degrees < 90; degrees += 5) session.setEnvironmentAngle(degrees), pass(3);
+  ASSERT_TRUE(waitFor([&] { return errors().upToDate(); }));
+  const std::vector<Vec3> turned = errors().map()->vertices;
+  session.setEnvironmentAngle(120);
+  ASSERT_TRUE(waitFor([&] { return errors().upToDate(); }));
+  EXPECT_NE(errors().map()->vertices, turned);
+  session.setEnvironmentAngle(85);
+  ASSERT_TRUE(waitFor([&] { return errors().upToDate(); }));
+  EXPECT_EQ(errors().map()->vertices, turned);
   errors().setByPrior(true);
+  ASSERT_TRUE(waitFor([&] { return errors().upToDate(); }));
   const std::vector<Vec3> prior = errors().map()->vertices;
   session.setEnvironmentAngle(10);
   pass(150);

@@ -100,7 +100,7 @@ TEST(Relighter, TurningTheEnvironmentTurnsItsCoefficients) {
   const auto map = std::make_shared<const EnvironmentMap>(softboxStudio(64, 32));
   Relighter relighter;
   relighter.setScene(sphereScene());
-  relighter.setEnvironment(map, projectEnvironment(*map, 10));
+  relighter.setEnvironment(map, projectEnvironment(*map, 10), {});
   LightRig rig;
   rig.rotation = 1.1f;
   rig.intensity = 2;
@@ -161,13 +161,14 @@ TEST(Relighter, WhatStandsBehindTheModelIsLatLongSharpOrBlurredAndMadeOnce) {
   EXPECT_FALSE(relighter.backdrop());
   EXPECT_FALSE(relighter.blurredBackdrop());
   const auto map = std::make_shared<const EnvironmentMap>(clearSky({}, 128, 64));
-  relighter.setEnvironment(map, projectEnvironment(*map, 5));
+  Job job;
+  relighter.setEnvironment(map, projectEnvironment(*map, 5), makeBackdrop(map, job));
   EXPECT_EQ(relighter.backdrop(), map) << "it is lat-long as it is";
   const auto blurred = relighter.blurredBackdrop();
   ASSERT_TRUE(blurred);
   EXPECT_EQ(relighter.blurredBackdrop(), blurred);
   EXPECT_LT(blurred->report().largest, 0.1f * map->report().largest) << "the sun is spread";
-  relighter.setEnvironment(nullptr, {});
+  relighter.setEnvironment(nullptr, {}, {});
   EXPECT_FALSE(relighter.blurredBackdrop());
 }
 

@@ -105,6 +105,22 @@ TEST_F(SessionTest, ABadProbeIsToldAtTheLightAndTheOldOneStays) {
   EXPECT_FALSE(session.document().canUndo());
 }
 
+TEST_F(SessionTest, AMapInAnotherMappingIsUnrolledForTheBackground) {
+  ASSERT_TRUE(openAndSettle(writeScene()));
+  Image probe(64, 64, 3);
+  for (float& v : probe.data) v = 0.5f;
+  writeImage(path("probe.exr").toStdString(), probe);
+  session.open(path("probe.exr"));
+  ASSERT_TRUE(quiet());
+  const Relighter& lit = session.relighter();
+  ASSERT_EQ(lit.environment()->report().mapping, EnvironmentMapping::AngularMap);
+  for (const auto& backdrop : {lit.backdrop(), lit.blurredBackdrop()}) {
+    ASSERT_TRUE(backdrop);
+    EXPECT_EQ(backdrop->report().mapping, EnvironmentMapping::LatLong);
+    EXPECT_NEAR(backdrop->radiance(Vec3(0, 0, 1)).x, 0.5f, 0.02f);
+  }
+}
+
 TEST_F(SessionTest, AProbeIsAnEditThatUndoTakesBack) {
   ASSERT_TRUE(openAndSettle(writeScene()));
   const auto before = session.relighter().environment();

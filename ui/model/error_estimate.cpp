@@ -118,7 +118,7 @@ void ErrorEstimate::measure() {
     if (*id != job_) return;
     job_ = 0;
     if (info.state == JobState::Failed) session_.report(Severity::Error, info.error, Place::Transfer);
-    if (info.state != JobState::Done && !known_) shown_ = ErrorShown::Off;  // or it would begin again
+    if (info.state != JobState::Done && !probe_) shown_ = ErrorShown::Off;  // or it would begin again
     layOver();
     Q_EMIT changed();
   };
@@ -132,7 +132,7 @@ void ErrorEstimate::cancel() {
 
 void ErrorEstimate::received(quint64 job, ErrorProbe probe) {
   if (measured_ != session_.relighter().transfer() || (job_ != 0 && job != job_)) return;
-  probe_ = std::move(probe);
+  probe_ = std::make_shared<const ErrorProbe>(std::move(probe));
   judge();
 }
 
@@ -153,15 +153,37 @@ void ErrorEstimate::follow() {
     rejudge_.start();
 }
 
+bool ErrorEstimate::upToDate() const {
+  return known_ && !judging_ && !rejudge_.isActive() &&
+         (byPrior_ || judgedLight_ == session_.relighter().lightVersion());
+}
+
+// In a job: on large meshes it takes longer than a frame. One at a time, and after it at most one more.
 void ErrorEstimate::judge() {
   if (!probe_) return;
+  judgeAgain_ = judging_;
+  if (judging_) return;
+  judging_ = true;
   const Relighter& lit = session_.relighter();
   judgedLight_ = lit.lightVersion();
-  map_ = byPrior_ ? probe_->underPrior()
-                  : probe_->under(judgedLight(lit.wholeLight(), lit.bands(), lit.method()));
-  known_ = true;
-  layOver();
-  Q_EMIT changed();
+  auto map = std::make_shared<ErrorMap>();
+  const auto work = [map, probe = probe_, prior = byPrior_,
+                     light = judgedLight(lit.wholeLight(), lit.bands(), lit.method())](Job&) {
+    *map = prior ? probe->underPrior() : probe->under(light);
+  };
+  const auto finish = [this, map, probe = probe_](const JobInfo& info) {
+    judging_ = false;
+    if (info.state == JobState::Failed) session_.report(Severity::Error, info.error, Place::Transfer);
+    if (info.state == JobState::Done && probe == probe_) {
+      map_ = std::move(*map);
+      known_ = true;
+      complete_ = probe->knowsInterpolation();
+      layOver();
+      Q_EMIT changed();
+    }
+    if (judgeAgain_) judge();
+  };
+  session_.jobs().startQuietly(QStringLiteral("judge errors"), tr("Judge errors"), work, finish);
 }
 
 void ErrorEstimate::layOver() {

@@ -40,7 +40,9 @@ class ErrorEstimate : public QObject {
   /// The errors of the bake that is shown; null while they are not known.
   const ErrorMap* map() const { return known_ ? &map_ : nullptr; }
   /// While false, interpolation is not known yet.
-  bool complete() const { return known_ && probe_->knowsInterpolation(); }
+  bool complete() const { return known_ && complete_; }
+  /// Whether the map is of the light of the moment; a moved light is judged behind the interface.
+  bool upToDate() const;
   /// Relative error at the upper end of the colour scale: a round number that most of the surface stays
   /// below.
   double scaleEnd() const { return scaleEnd_; }
@@ -69,12 +71,13 @@ class ErrorEstimate : public QObject {
   bool byPrior_ = false;
   quint64 job_ = 0;
   std::shared_ptr<const Transfer> measured_;  // what the probe is, or will be, of
-  std::optional<ErrorProbe> probe_;
+  std::shared_ptr<const ErrorProbe> probe_;
   ErrorMap map_;
-  bool known_ = false;
+  bool known_ = false, complete_ = false;  // the map is there; it knows interpolation
   double scaleEnd_ = 0;
-  quint64 judgedLight_ = 0;  // version of the light that the map is for
-  QTimer rejudge_;           // after the light has moved
+  quint64 judgedLight_ = 0;                    // version of the light that the map is for, or will be
+  bool judging_ = false, judgeAgain_ = false;  // in a job; the light has moved meanwhile
+  QTimer rejudge_;                             // after the light has moved
 };
 
 /// "Monte Carlo", "total", ...

@@ -20,6 +20,17 @@ bool sameGeometry(const Scene& a, const Scene& b) {
 
 }  // namespace
 
+Backdrop makeBackdrop(const std::shared_ptr<const EnvironmentMap>& map, Job& job) {
+  if (!map) return {};
+  Backdrop backdrop{map, nullptr};
+  if (map->report().mapping != EnvironmentMapping::LatLong)
+    backdrop.sharp =
+        std::make_shared<EnvironmentMap>(toLatLong(*map, kBackdropWidth, kBackdropWidth / 2, job));
+  backdrop.blurred =
+      std::make_shared<EnvironmentMap>(blurredLatLong(*backdrop.sharp, radians(kBlurDegrees), job));
+  return backdrop;
+}
+
 void Relighter::setScene(std::shared_ptr<const Scene> scene) {
   if (scene == scene_) return;
   const bool same = scene && scene_ && sameGeometry(*scene, *scene_);
@@ -59,11 +70,11 @@ void Relighter::setTransfer(std::shared_ptr<const Transfer> transfer) {
   touchLight();
 }
 
-void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients) {
+void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients,
+                               Backdrop backdrop) {
   rig_.environment = std::move(map);
   environmentCoefficients_ = std::move(coefficients);
-  backdrop_.reset();
-  blurred_.reset();
+  backdrop_ = std::move(backdrop);
   ++environmentVersion_;
   touchLight();
   Q_EMIT environmentChanged();
@@ -104,20 +115,6 @@ const SurfaceLight& Relighter::surface() {
   unshadowed.bands = bands();
   return surface_ = surfaceLight(shadowed() ? *transfer_ : unshadowed, light(),
                                  shadowed() ? *samples_ : SampleSet{});
-}
-
-const std::shared_ptr<const EnvironmentMap>& Relighter::backdrop() {
-  const auto& map = rig_.environment;
-  if (!map || map->report().mapping == EnvironmentMapping::LatLong) return map;
-  if (!backdrop_)
-    backdrop_ = std::make_shared<EnvironmentMap>(toLatLong(*map, kBackdropWidth, kBackdropWidth / 2));
-  return backdrop_;
-}
-
-const std::shared_ptr<const EnvironmentMap>& Relighter::blurredBackdrop() {
-  if (!blurred_ && rig_.environment)
-    blurred_ = std::make_shared<EnvironmentMap>(blurredLatLong(*rig_.environment, radians(kBlurDegrees)));
-  return blurred_;
 }
 
 void Relighter::touchLight() {

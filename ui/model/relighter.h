@@ -3,6 +3,7 @@
 // the other when a picture is about to be drawn, once per change.
 
 #include "libprt/basis/sh.h"
+#include "libprt/core/job.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/material/material.h"
 #include "libprt/project/recipe.h"
@@ -18,6 +19,13 @@
 
 namespace prt::ui {
 
+/// An environment as it stands behind the model, both lat-long.
+struct Backdrop {
+  std::shared_ptr<const EnvironmentMap> sharp, blurred;
+};
+/// Resamples maps in other mappings, and blurs: too long for the interface where the map is large.
+Backdrop makeBackdrop(const std::shared_ptr<const EnvironmentMap>& map, Job& job);
+
 class Relighter : public QObject {
   Q_OBJECT
  public:
@@ -30,8 +38,8 @@ class Relighter : public QObject {
   void setSamples(std::shared_ptr<const SampleSet> samples);
   /// Transfer of the scene's vertices; null until there is any: the scene is then lit without shadows.
   void setTransfer(std::shared_ptr<const Transfer> transfer);
-  /// The environment and its coefficients in at least as many bands as any transfer has.
-  void setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients);
+  /// The environment, its coefficients in at least as many bands as any transfer has, and what is seen of it.
+  void setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb coefficients, Backdrop backdrop);
   /// All lights but the environment's map, which stays, and the window that keeps them from ringing.
   void setLights(const LightRig& rig, const MethodRecipe& method = {});
   void setMaterials(std::vector<Material> materials);
@@ -41,9 +49,9 @@ class Relighter : public QObject {
   const std::shared_ptr<const Transfer>& transfer() const { return transfer_; }
   const std::shared_ptr<const EnvironmentMap>& environment() const { return rig_.environment; }
   const LightRig& rig() const { return rig_; }
-  /// The environment as it stands behind the model: lat-long, sharp or blurred. Made when first asked for.
-  const std::shared_ptr<const EnvironmentMap>& backdrop();
-  const std::shared_ptr<const EnvironmentMap>& blurredBackdrop();
+  /// The environment as it stands behind the model: lat-long, sharp or blurred.
+  const std::shared_ptr<const EnvironmentMap>& backdrop() const { return backdrop_.sharp; }
+  const std::shared_ptr<const EnvironmentMap>& blurredBackdrop() const { return backdrop_.blurred; }
   const std::vector<Material>& materials() const { return materials_; }
   int bands() const { return transfer_ ? transfer_->bands : kUnshadowedBands; }
 
@@ -84,7 +92,7 @@ class Relighter : public QObject {
   SurfaceLight surface_;
   quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0;
   quint64 lightOf_ = 0, surfaceOf_ = 0;  // light versions that light_ and surface_ were made of
-  std::shared_ptr<const EnvironmentMap> backdrop_, blurred_;
+  Backdrop backdrop_;
 };
 
 }  // namespace prt::ui

@@ -150,11 +150,13 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
   struct Result {
     std::shared_ptr<const EnvironmentMap> map;
     ShRgb coefficients;
+    Backdrop backdrop;
   };
   auto result = std::make_shared<Result>();
   const auto work = [result, light, folder = document_.folder(), cache = environments_](Job& job) {
     result->map = cache->get(light, folder);
     result->coefficients = projectEnvironment(*result->map, kLightBands, job);
+    result->backdrop = makeBackdrop(result->map, job);
   };
   const auto finish = [this, result, light, loaded = std::move(loaded)](const JobInfo& job) {
     if (job.state == JobState::Failed) report(Severity::Error, job.error, Place::Light);
@@ -166,7 +168,7 @@ void Session::startEnvironment(const LightRecipe& light, std::function<void()> l
     if (environmentShown_ != shownKey(light)) return;  // another one is wanted by now
     environmentExact_ = true;
     probes_.note(absolutePath(light));
-    relighter_.setEnvironment(result->map, result->coefficients);
+    relighter_.setEnvironment(result->map, result->coefficients, result->backdrop);
     const std::string warning = result->map->report().warning();
     if (!warning.empty()) report(Severity::Warning, QString::fromStdString(warning), Place::Light);
   };
@@ -182,7 +184,7 @@ void Session::applyLights() {
   LightRig rig = makeLightRig(others, {}, none);
   if (index < 0) {
     relighter_.setLights(rig, document_.recipe().method);
-    if (!std::exchange(environmentShown_, {}).empty()) relighter_.setEnvironment(nullptr, {});
+    if (!std::exchange(environmentShown_, {}).empty()) relighter_.setEnvironment(nullptr, {}, {});
     return;
   }
   const LightRecipe& light = document_.recipe().lights[std::size_t(index)];
@@ -200,8 +202,11 @@ void Session::showQuickSky(const LightRecipe& light) {
   QuickSky sky = quickClearSky(clearSkyOf(light), kLightBands);
   environmentExact_ = false;
   skyJobKey_.clear();
-  relighter_.setEnvironment(std::make_shared<EnvironmentMap>(std::move(sky.map)),
-                            std::move(sky.coefficients));
+  const auto map = std::make_shared<const EnvironmentMap>(std::move(sky.map));
+  Job patient;  // this map is small
+  const bool blurred = view_.background() == BackgroundMode::Blurred;
+  relighter_.setEnvironment(map, std::move(sky.coefficients),
+                            blurred ? makeBackdrop(map, patient) : Backdrop{map, nullptr});
 }
 
 void Session::finishSky() {
