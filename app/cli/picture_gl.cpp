@@ -23,13 +23,12 @@ Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& l
   picture.width = options.width;
   picture.height = options.height;
   picture.samples = options.grid * options.grid;
-  picture.background = gl::Background::Black;
-  if (options.background && lights.environment) {
-    renderer.setEnvironment(*lights.environment);
-    picture.background = gl::Background::Environment;
-    picture.environmentRotation = lights.rotation;
-    picture.environmentIntensity = lights.intensity;
-  }
+  picture.background = options.background ? gl::Background::Environment : gl::Background::Black;
+  if (lights.environment) renderer.setEnvironment(*lights.environment);
+  picture.environmentRotation = lights.rotation;
+  picture.environmentIntensity = lights.environment ? lights.intensity : 0;
+  picture.circles = lights.circles;
+  picture.constant = lights.constant;
   return renderer.render(picture);
 }
 

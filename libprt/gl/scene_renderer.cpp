@@ -1,6 +1,7 @@
 #include "libprt/gl/scene_renderer.h"
 
 #include "libprt/core/error.h"
+#include "libprt/core/warp.h"
 #include "libprt/gl/sh_glsl.h"
 #include "libprt/light/resample.h"
 #include "libprt/material/glossy_response.h"
@@ -11,6 +12,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace prt::gl {
@@ -18,7 +20,7 @@ namespace prt::gl {
 namespace {
 
 constexpr unsigned kMaterialBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kRadianceBinding = 3,
-                   kBehindBinding = 4, kResponseBinding = 5;
+                   kBehindBinding = 4, kResponseBinding = 5, kCircleBinding = 6;
 constexpr int kEnvironmentUnit = 0, kManySamplesUnit = 1, kOneSampleUnit = 2, kManyDepthsUnit = 3,
               kOneDepthUnit = 4;
 constexpr int kResponseRows = 512;  // view angles in a table of responses
@@ -30,6 +32,13 @@ struct GpuMaterial {
   Vec4 albedo;
   Vec4 specular;
 };
+
+// As shaders/background.frag has it.
+struct GpuCircle {
+  Vec4 axis;      // and 1 - cosine of the rim
+  Vec4 radiance;  // and sine of the rim
+};
+constexpr float kSmallestRim = 1e-4f;  // sine; a light of 180 degrees has none
 
 // Distances that hold the whole box, seen from the eye; never nearer than a thousandth of it.
 Vec2 depthRange(const Camera& camera, const Box3& box) {
@@ -112,10 +121,11 @@ SceneRenderer::SceneRenderer()
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
   for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_, &materialBuffer_,
-                         &radianceBuffer_, &backSamples_, &responses_})
+                         &radianceBuffer_, &backSamples_, &responses_, &circles_})
     *buffer = Buffer::create();
   radianceBuffer_.upload(std::span<const Rgb>(),
                          sizeof(Vec4));  // bound even where the shader does not read it
+  noEnvironment_ = Texture::fromImage(Image(1, 1, 3), Wrap::RepeatX, false);  // black
   backgroundProgram_.set("environment", kEnvironmentUnit);
   toneProgram_.set("manySamples", kManySamplesUnit);
   toneProgram_.set("oneSample", kOneSampleUnit);
@@ -342,7 +352,8 @@ void SceneRenderer::drawRadiance(const Picture& picture, PixelFormat format, int
   radiance_.bind();
   beginSurfaces();
   if (indexCount_ > 0) drawMesh(picture);
-  if (picture.background == Background::Environment && environment_) drawBackground(picture);
+  const bool any = environment_ || !picture.circles.empty() || picture.constant != Rgb(0);
+  if (picture.background == Background::Environment && any) drawBackground(picture);
 }
 
 void SceneRenderer::drawMesh(const Picture& picture) {
@@ -375,9 +386,19 @@ void SceneRenderer::drawBackground(const Picture& picture) {
     return rays.background(x * float(picture.width) + shift.x, y * float(picture.height) - shift.y);
   };
   const Vec3 corner = onPlane(0, 1);
-  environment_.bind(kEnvironmentUnit);
+  std::vector<GpuCircle> circles;
+  for (const CircleLight& light : picture.circles)
+    circles.push_back({Vec4(light.direction, coneHeight(light.halfAngle)),
+                       Vec4(light.radiance, std::max(std::sin(light.halfAngle), kSmallestRim))});
+  circles_.upload(std::span<const GpuCircle>(circles), sizeof(GpuCircle));  // bound even when it is empty
+  circles_.bindStorage(kCircleBinding);
+  (environment_ ? environment_ : noEnvironment_).bind(kEnvironmentUnit);
+  const Vec3 right = onPlane(1, 1) - corner;
+  backgroundProgram_.set("circleCount", int(circles.size()));
+  backgroundProgram_.set("constant", picture.constant);
+  backgroundProgram_.set("pixel", length(right) / float(picture.width));
   backgroundProgram_.set("corner", corner);
-  backgroundProgram_.set("right", onPlane(1, 1) - corner);
+  backgroundProgram_.set("right", right);
   backgroundProgram_.set("up", onPlane(0, 0) - corner);
   backgroundProgram_.set("rotation", picture.environmentRotation);
   backgroundProgram_.set("intensity", picture.environmentIntensity);

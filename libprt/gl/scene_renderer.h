@@ -8,6 +8,7 @@
 #include "libprt/gl/objects.h"
 #include "libprt/gl/program.h"
 #include "libprt/light/environment.h"
+#include "libprt/light/light_rig.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/surface_light.h"
 #include "libprt/shade/tonemap.h"
@@ -23,7 +24,7 @@ namespace prt::gl {
 
 enum class Background {
   Black,       ///< nothing: black, alpha 0
-  Environment  ///< the environment map, alpha 1
+  Environment  ///< all light that has a size: environment map, circles, constant; alpha 1. None: as Black
 };
 
 /// What one picture is of.
@@ -36,11 +37,14 @@ struct Picture {
   /// the pixels and the mean of all so far is shown. Smooth edges where many samples at once are slow.
   int pass = 0;
   Background background = Background::Environment;
-  Rgb behind{0};                  ///< of draw(): what is seen where alpha is 0, as the screen shows it
-  float environmentRotation = 0;  ///< radians, counter-clockwise seen from +Y
-  float environmentIntensity = 1;
-  bool smoothEnvironment = false;  ///< between texels; otherwise piecewise constant, as the map lights
-  ToneSettings tone = {};          ///< of draw() and renderToned()
+  Rgb behind{0};                   ///< of draw(): what is seen where alpha is 0, as the screen shows it
+  float environmentRotation = 0;   ///< radians, counter-clockwise seen from +Y
+  float environmentIntensity = 1;  ///< 0: no map is seen
+  std::vector<CircleLight> circles = {};
+  Rgb constant{0};
+  /// Between texels, and edges of circles a pixel wide; otherwise piecewise constant, as the map lights.
+  bool smoothEnvironment = false;
+  ToneSettings tone = {};  ///< of draw() and renderToned()
   float gridSpacing =
       0;  ///< of draw() and renderToned(): lines of the ground grid, see shade/ground_grid.h; 0: none
 };
@@ -99,8 +103,8 @@ class SceneRenderer {
   std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
   VertexArray meshArray_, emptyArray_;
   Buffer positions_, normals_, front_, behind_, objects_, indices_;
-  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_;
-  Texture environment_;
+  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_, circles_;
+  Texture environment_, noEnvironment_;
   Framebuffer radiance_, passes_;
   int passCount_ = 0;  // summed in passes_
   PixelFormat radianceFormat_ = PixelFormat::Rgba16f;

@@ -148,8 +148,9 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
     display_.emplace(picture.tone);
 
   std::optional<LiveBackground> background;
-  if (scene.environment)
-    background.emplace(*scene.environment, scene.environmentRotation, scene.environmentIntensity,
+  if (scene.environment || !scene.circles.empty() || scene.constant != Rgb(0))
+    background.emplace(LiveSky{scene.environment.get(), scene.environmentRotation, scene.environmentIntensity,
+                               scene.circles, scene.constant},
                        picture.camera, picture.width, picture.height);
   const GridRays gridRays(picture.camera, picture.width, picture.height);
   parallelFor(job, 0, view_.tiles.size(), 1, [&](std::size_t t, std::size_t) {

@@ -11,6 +11,7 @@
 #include "libprt/basis/sh.h"
 #include "libprt/core/job.h"
 #include "libprt/light/environment.h"
+#include "libprt/light/light_rig.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/display_table.h"
 #include "libprt/shade/live_shading.h"
@@ -33,9 +34,12 @@ struct LiveScene {
   std::shared_ptr<const Transfer> transfer;           ///< null: light arrives without shadows
   std::vector<Material> materials;                    ///< [objects], in place of the scene's
   ShRgb light;                                        ///< of at most 10 bands
-  std::shared_ptr<const EnvironmentMap> environment;  ///< behind the model, lat-long; null: `behind`
+  std::shared_ptr<const EnvironmentMap> environment;  ///< behind the model, lat-long; null: none
   float environmentRotation = 0;                      ///< radians, counter-clockwise seen from +Y
   float environmentIntensity = 1;
+  // Further light that is seen behind the model. With none of the three there is `behind`.
+  std::vector<CircleLight> circles = {};
+  Rgb constant{0};
 };
 
 struct LivePicture {

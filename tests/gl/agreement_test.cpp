@@ -103,11 +103,13 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
 
   static SceneRenderer renderer;
   renderer.setScene(*s.scene, s.samples->back);
-  renderer.setEnvironment(*rig.environment);
+  if (rig.environment) renderer.setEnvironment(*rig.environment);
   renderer.setLight(surfaceLight(transfer, light, *s.samples));
   Picture picture{.camera = s.camera, .width = kWidth, .height = kHeight, .samples = 1};
   picture.environmentRotation = rig.rotation;
-  picture.environmentIntensity = rig.intensity;
+  picture.environmentIntensity = rig.environment ? rig.intensity : 0;
+  picture.circles = rig.circles;
+  picture.constant = rig.constant;
   picture.tone = tone;
   const Image gl = renderer.renderToned(picture);
 
@@ -158,6 +160,24 @@ TEST_F(AgreementTest, GlossyWithMatrices) {
   expectAgreement(s, bake(s, TransferForm::Matrix, 7, 0), turned(s, 10), "matrix of 7 bands");
 }
 
+// A large light and a small one in the picture, over the map and over nothing.
+LightRig withCircles(const TestScene& s, LightRig rig) {
+  const Vec3 ahead = normalize(s.camera.target - s.camera.eye);
+  rig.circles = {{normalize(ahead + Vec3(0.25f, 0.32f, 0)), float(radians(9.0)), Rgb(2, 0.5f, 0.25f)},
+                 {normalize(ahead + Vec3(-0.3f, 0.35f, 0)), float(radians(1.2)), Rgb(0, 3, 1)}};
+  rig.constant = Rgb(0.1f, 0.05f, 0.2f);
+  return rig;
+}
+
+TEST_F(AgreementTest, CirclesAndConstantLightBehindTheModel) {
+  const TestScene& s = oneSidedScene();
+  const Transfer transfer = bake(s, TransferForm::Diffuse, 4, 0);
+  LightRig rig = withCircles(s, turned(s, 200));
+  expectAgreement(s, transfer, rig, "over a map");
+  rig.environment.reset();
+  expectAgreement(s, transfer, rig, "over nothing");
+}
+
 TEST_F(AgreementTest, ParallelRays) {
   TestScene s = twoSidedScene();
   s.camera.orthographic = true;
@@ -177,7 +197,7 @@ TEST_F(AgreementTest, GlossyWithoutBackSides) {
 TEST_F(AgreementTest, LiveRendererWithBackgroundAndGrid) {
   TestScene s = oneSidedScene();
   const auto transfer = std::make_shared<const Transfer>(bake(s, TransferForm::Matrix, 5, 1));
-  const LightRig rig = turned(s, 70);
+  const LightRig rig = withCircles(s, turned(s, 70));
   const ShRgb light = lightOf(s, rig, 5);
   SceneRenderer gl;
   gl.setScene(*s.scene);
@@ -193,11 +213,14 @@ TEST_F(AgreementTest, LiveRendererWithBackgroundAndGrid) {
       picture.environmentRotation = rig.rotation;
       picture.environmentIntensity = rig.intensity;
       picture.smoothEnvironment = true;
+      picture.circles = rig.circles;
+      picture.constant = rig.constant;
       picture.gridSpacing = 0.1f;
       const Image expected = gl.renderToned(picture);
       LiveScene scene{
           s.scene,      s.samples,    transfer, s.scene->materials, light, plain ? nullptr : rig.environment,
           rig.rotation, rig.intensity};
+      if (!plain) scene.circles = rig.circles, scene.constant = rig.constant;
       std::vector<std::uint32_t> pixels(std::size_t(kWidth * kHeight));
       Job job;
       live.draw(

@@ -9,6 +9,8 @@
 #include <QWidget>
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 namespace prt::ui {
 
@@ -19,6 +21,26 @@ struct CanvasContext {
   const SurfaceLayers& layers;
   std::function<void(QPainter&)> paintOverlay;  ///< drawn over every frame, in logical pixels
 };
+
+/// What of the light is seen behind the model. Out of focus, circles are not drawn: their handles tell.
+struct Sky {
+  std::shared_ptr<const EnvironmentMap> map;  ///< lat-long; null: none
+  std::vector<CircleLight> circles;
+  Rgb constant{0};
+
+  bool any() const { return map || !circles.empty() || constant != Rgb(0); }
+};
+inline Sky skyBehind(const Relighter& lit, const ViewState& view) {
+  switch (view.background()) {
+    case BackgroundMode::Environment:
+      return {lit.backdrop(), lit.rig().circles, lit.rig().constant};
+    case BackgroundMode::Blurred:
+      return {lit.blurredBackdrop(), {}, lit.rig().constant};
+    case BackgroundMode::Plain:
+      break;
+  }
+  return {};
+}
 
 /// The overlay's picture for a canvas of this size in logical pixels.
 inline OverlayPicture overlayPicture(const Camera& camera, const QSize& size, double pixelRatio,

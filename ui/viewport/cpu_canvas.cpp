@@ -100,8 +100,10 @@ LiveScene CpuCanvas::liveScene() const {
   Relighter& lit = context_.relighter;
   LiveScene scene{lit.scene(), lit.samples(), lit.transfer(),     lit.materials(),
                   lit.light(), nullptr,       lit.rig().rotation, lit.rig().intensity};
-  if (context_.view.background() == BackgroundMode::Environment) scene.environment = lit.backdrop();
-  if (context_.view.background() == BackgroundMode::Blurred) scene.environment = lit.blurredBackdrop();
+  const Sky sky = skyBehind(lit, context_.view);
+  scene.environment = sky.map;
+  scene.circles = sky.circles;
+  scene.constant = sky.constant;
   return scene;
 }
 

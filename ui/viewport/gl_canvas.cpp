@@ -94,6 +94,8 @@ void GlCanvas::initializeGL() {
     description_ = QString::fromStdString(gl::describeContext());
     scene_ = light_ = materials_ = 0;
     backdrop_.reset();
+    pass_ = 0;  // what another context has shown is gone with it
+    finished_ = broken_ = false;
   } catch (const std::exception& error) {
     broken_ = true;
     Q_EMIT failed(QString::fromUtf8(error.what()));
@@ -169,8 +171,7 @@ void GlCanvas::uploadChanges() {
     renderer_->setMaterials(lit.materials());
     materials_ = lit.materialVersion();
   }
-  const auto& backdrop =
-      context_.view.background() == BackgroundMode::Blurred ? lit.blurredBackdrop() : lit.backdrop();
+  const auto backdrop = skyBehind(lit, context_.view).map;
   if (backdrop && backdrop != backdrop_) {
     renderer_->setEnvironment(*backdrop);
     backdrop_ = backdrop;
@@ -188,13 +189,14 @@ void GlCanvas::drawScene() {
   picture.height = qRound(height() * devicePixelRatioF());
   picture.samples = inPasses_ ? 1 : kSamples;
   picture.pass = inPasses_ ? std::min(pass_, kPasses - 1) : 0;
-  // The renderer keeps the last map that it was given, also when the recipe has none any more.
-  const bool environment =
-      context_.view.background() != BackgroundMode::Plain && context_.relighter.environment();
-  picture.background = environment ? gl::Background::Environment : gl::Background::Black;
+  const Sky sky = skyBehind(context_.relighter, context_.view);
+  picture.background = sky.any() ? gl::Background::Environment : gl::Background::Black;
   picture.behind = kPlainBackground;
   picture.environmentRotation = context_.relighter.rig().rotation;
-  picture.environmentIntensity = context_.relighter.rig().intensity;
+  // The renderer keeps the last map that it was given, also when the recipe has none any more.
+  picture.environmentIntensity = sky.map ? context_.relighter.rig().intensity : 0;
+  picture.circles = sky.circles;
+  picture.constant = sky.constant;
   picture.smoothEnvironment = true;
   picture.tone = context_.view.tone();
   if (context_.view.grid() && context_.relighter.scene())

@@ -45,7 +45,9 @@ std::vector<Line> methodLines(const PictureStatus& s) {
   const Theme& t = pictureTheme();
   QString method =
       QObject::tr("%1 \u00b7 %2 bands, %3 functions").arg(s.method).arg(s.bands).arg(s.bands * s.bands);
-  if (s.levels > 0 && s.bounces > 0) method += QObject::tr(" \u00b7 %n bounces", nullptr, s.bounces);
+  if (s.levels > 0 && s.bounces > 0)
+    method +=
+        s.bounces == 1 ? QObject::tr(" \u00b7 1 bounce") : QObject::tr(" \u00b7 %1 bounces").arg(s.bounces);
   std::vector<Line> lines{{method, t.text}};
   if (s.levels == 0)
     lines.push_back({QObject::tr("not baked yet: light without shadows"), t.stale});
