@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/project/recipe_table.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace prt {
@@ -22,6 +23,9 @@ Camera CameraRecipe::camera() const {
 void checkRecipe(const Recipe& recipe, const std::string& where) {
   const auto at = [&](const std::string& path) { return where.empty() ? path : where + ": " + path; };
   if (recipe.objects.empty()) throw ValueError("is empty", at("objects"), "give at least one object");
+  if (std::none_of(recipe.objects.begin(), recipe.objects.end(),
+                   [](const ObjectRecipe& o) { return o.visible; }))
+    throw ValueError("hides every object", at("objects[0].visible"), "show one at least");
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     const Vec3& s = recipe.objects[i].transform.scale;
     if (s.x * s.y * s.z == 0)

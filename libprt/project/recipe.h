@@ -50,6 +50,7 @@ struct TransformRecipe {
 
 struct ObjectRecipe {
   std::string name = "object";
+  bool visible = true;  ///< false: as if the object were not in the list
   MeshRecipe mesh;
   TransformRecipe transform;
   Material material;

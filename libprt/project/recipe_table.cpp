@@ -58,6 +58,15 @@ const std::vector<Row<ObjectRecipe>> kObject{
      {},
      "none",
      "Name of the object in lists and exports."},
+    {"visible",
+     [](ObjectRecipe& o) -> FieldRef { return &o.visible; },
+     ParameterType::Boolean,
+     "",
+     0,
+     0,
+     {},
+     kCostDirect,
+     "Off, the object takes no part in scene, rays and pictures but keeps its settings."},
 };
 
 const std::vector<Row<MeshRecipe>> kMesh{

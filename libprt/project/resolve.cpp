@@ -9,7 +9,7 @@ namespace {
 
 bool anyGlossy(const Recipe& recipe) {
   return std::any_of(recipe.objects.begin(), recipe.objects.end(),
-                     [](const ObjectRecipe& o) { return o.material.glossy(); });
+                     [](const ObjectRecipe& o) { return o.visible && o.material.glossy(); });
 }
 
 /// The cheapest form that holds what the materials and bounces need.

@@ -36,7 +36,7 @@ std::vector<Stage> makeStages() {
       {.name = "scene",
        .makes = "all objects in one mesh, in the common frame",
        .inputs = {"mesh"},
-       .reads = {"objects[].transform", "objects[].material.twoSided"},
+       .reads = {"objects[].visible", "objects[].transform", "objects[].material.twoSided"},
        .stored = false,
        .make = makeScene},
       {.name = "samples",
@@ -56,6 +56,7 @@ std::vector<Stage> makeStages() {
        .make = makeRays},
       {.name = "direct",
        .makes = "what light from outside does at each sample, shadowed but not reflected",
+       .version = 2,
        .inputs = {"scene", "samples", "rays"},
        .reads = {"transfer.bands", "transfer.rays", "transfer.seed"},
        .extends = {"transfer.rays"},
@@ -115,12 +116,14 @@ ProductPtr makeMeshes(StageRun& run) {
 
 ProductPtr makeScene(StageRun& run) {
   const auto meshes = run.input<MeshProduct>("mesh");
+  const auto nothing = std::make_shared<const TriMesh>();  // in the place of what is hidden: numbers stay
   std::vector<SceneObject> objects;
   for (std::size_t i = 0; i < meshes->meshes.size(); ++i) {
     const ObjectRecipe& object = run.recipe().objects[i];
     Material geometryOnly;
     geometryOnly.twoSided = object.material.twoSided;
-    objects.push_back({object.name, meshes->meshes[i], object.transform.matrix(), geometryOnly});
+    objects.push_back(
+        {object.name, object.visible ? meshes->meshes[i] : nothing, object.transform.matrix(), geometryOnly});
   }
   return std::make_shared<SceneProduct>(flattenScene(objects));
 }
@@ -187,7 +190,9 @@ ProductPtr makeDirect(StageRun& run) {
 }
 
 ProductPtr makeTransfer(StageRun& run) {
-  const TransferSettings settings = transferSettings(run.recipe());
+  TransferSettings settings = transferSettings(run.recipe());
+  // The first preview comes at once, with shadows; bounces come with the next.
+  if (run.fromPreview() && run.inputState("direct").level == 1) settings.bounces = 0;
   const Scene scene = withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe());
   std::map<std::string, Array> state;  // after the last bounce
   const auto keep = [&] { run.keepCheckpoint([&] { return ProductData{"{}", state}; }); };

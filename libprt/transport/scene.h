@@ -30,8 +30,8 @@ struct Scene {
   const Material& materialOf(std::uint32_t triangle) const { return materials[triangleObject[triangle]]; }
 };
 
-/// Throws GeometryError when there is no triangle at all, a transform is singular or not finite, or
-/// the flattened mesh would exceed 2^31 vertices.
+/// Objects may be empty: they keep their number. Throws GeometryError when there is no triangle at all, a
+/// transform is singular or not finite, or the flattened mesh would exceed 2^31 vertices.
 Scene flattenScene(std::span<const SceneObject> objects);
 
 }  // namespace prt

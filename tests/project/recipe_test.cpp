@@ -58,6 +58,7 @@ Recipe randomRecipe() {
   forEachField(recipe, [](const FieldPlace& place, const FieldRef& field) {
     fieldFromJson(field, place.parameter, randomValue(place.parameter), place.path());
   });
+  recipe.objects[0].visible = true;  // one must be
   return recipe;
 }
 
@@ -94,6 +95,17 @@ TEST(Recipe, FloatsPrintAsWritten) {
   Recipe recipe;
   setByPath(recipe, "material.albedo", "[0.3, 0.2, 0.1]");
   EXPECT_EQ(getByPath(recipe, "material.albedo").dump(), "[0.3,0.2,0.1]");
+}
+
+TEST(Recipe, OneObjectIsShownAtLeast) {
+  Recipe recipe;
+  EXPECT_THAT(errorOf([&] { setByPath(recipe, "objects[0].visible", "false"); }),
+              HasSubstr("hides every object"));
+  EXPECT_TRUE(recipe.objects[0].visible);
+  setByPath(recipe, "objects[1].mesh.path", "builtin:box");
+  setByPath(recipe, "objects[0].visible", "false");
+  EXPECT_FALSE(recipe.objects[0].visible);
+  EXPECT_THAT(errorOf([&] { setByPath(recipe, "objects[1].visible", "false"); }), HasSubstr("show one"));
 }
 
 TEST(Recipe, ShortFormsMeanTheFirstObject) {

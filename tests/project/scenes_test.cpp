@@ -32,6 +32,39 @@ TEST_P(BuiltinScene, HasEverythingForAPicture) {
 INSTANTIATE_TEST_SUITE_P(All, BuiltinScene, testing::ValuesIn(builtinSceneNames()),
                          [](const auto& p) { return p.param; });
 
+TEST(Scenes, WhatIsHiddenTakesNoPartAndKeepsItsNumber) {
+  Recipe recipe;
+  recipe.objects.resize(2);
+  recipe.objects[0].mesh.path = "builtin:sphere";
+  recipe.objects[0].material.model = MaterialModel::Phong;
+  recipe.objects[0].material.specular = Rgb(0.5f);
+  recipe.objects[1].mesh.path = "builtin:box";
+  recipe.transfer.rays = 16;
+  Recipe hidden = recipe, alone = recipe;
+  hidden.objects[0].visible = false;
+  alone.objects.erase(alone.objects.begin());
+  Job job;
+  Pipeline pipeline(nullptr, {});
+  const auto sceneOf = [&](const Recipe& r) {
+    return pipeline.run(r, {"scene"}, job).get<SceneProduct>("scene")->scene;
+  };
+  const auto all = sceneOf(recipe), rest = sceneOf(hidden), expected = sceneOf(alone);
+  EXPECT_GT(all->mesh.triangleCount(), expected->mesh.triangleCount());
+  EXPECT_EQ(rest->mesh.positions, expected->mesh.positions);
+  EXPECT_EQ(rest->mesh.triangles, expected->mesh.triangles);
+  EXPECT_EQ(rest->names.size(), 2u);
+  for (const std::uint32_t object : rest->triangleObject) ASSERT_EQ(object, 1u);
+
+  EXPECT_EQ(pipeline.keys(hidden).at("mesh"), pipeline.keys(recipe).at("mesh")) << "it is not read again";
+  EXPECT_NE(pipeline.keys(hidden).at("direct"), pipeline.keys(recipe).at("direct"));
+  EXPECT_EQ(resolved(recipe).transfer.kind, TransferKind::Matrix);
+  EXPECT_EQ(resolved(hidden).transfer.kind, TransferKind::Diffuse) << "nothing glossy is seen";
+  const auto bake = [&](const Recipe& r) {
+    return pipeline.run(r, {"transfer"}, job).get<TransferProduct>("transfer")->transfer.values.bytes;
+  };
+  EXPECT_EQ(bake(hidden), bake(alone)) << "nor does it throw a shadow";
+}
+
 TEST(Scenes, DefaultComesFirst) {
   EXPECT_EQ(builtinSceneNames().front(), "default");
   EXPECT_THAT(builtinSceneNames(), Contains("vase"));

@@ -11,12 +11,9 @@
 namespace prt::ui {
 namespace {
 
+using test::s;
 using test::StudioTest;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 // The dock alone in a window, with jobs that do as they are told.
 class JobsDockTest : public testing::Test {

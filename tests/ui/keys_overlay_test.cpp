@@ -10,9 +10,7 @@
 namespace prt::ui {
 namespace {
 
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
+using test::s;
 
 class KeysTest : public test::StudioTest {
  protected:

@@ -14,10 +14,7 @@ namespace prt::ui {
 namespace {
 
 using test::pass;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
+using test::s;
 
 TEST(Layout, TheViewportHasSixtyPercentOfADefaultWindow) {
   Session session;

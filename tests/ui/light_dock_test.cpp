@@ -29,11 +29,8 @@ namespace {
 using test::difference;
 using test::pass;
 using test::Pointer;
+using test::s;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class LightDockTest : public test::StudioTest {
  protected:
@@ -52,14 +49,12 @@ class LightDockTest : public test::StudioTest {
     ASSERT_TRUE(panorama && list && strip);
     pass(20);
   }
-  const LightRecipe& light(int i) { return session.document().recipe().lights.at(std::size_t(i)); }
   QPointF placeOf(const Vec3& direction) { return toStrip(direction, panorama->size()); }
   // A point of the rim beside the middle of a light.
   QPointF rimOf(int i) {
     const SkyAngles a = anglesOf(light(i).direction);
     return placeOf(directionOf(SkyAngles{a.azimuth, a.elevation - radians(light(i).angle / 2)}));
   }
-  QString undoName() { return session.document().undoName(); }
 
   Panorama* panorama = nullptr;
   LightList* list = nullptr;
@@ -190,6 +185,7 @@ TEST_F(LightDockTest, ListPanoramaAndRowsShareTheSelection) {
   openUnder();
   session.lights().addCircle({0, 0, -1});
   session.lights().addCircle(directionOf(SkyAngles{radians(90.0), 0.2}));
+  pass(20);  // until the list has room for them
   Pointer hand(list);
   hand.click(list->row(1).center());
   EXPECT_EQ(session.lights().selected(), 1);
@@ -213,6 +209,7 @@ TEST_F(LightDockTest, ListPanoramaAndRowsShareTheSelection) {
 TEST_F(LightDockTest, RenamesInPlace) {
   openUnder();
   session.lights().addCircle({0, 0, -1});
+  pass(20);
   Pointer(list).doubleClick(list->row(1).center());
   auto* editor = list->findChild<QLineEdit*>();
   ASSERT_TRUE(editor && editor->isVisible());
@@ -226,6 +223,7 @@ TEST_F(LightDockTest, TheSwatchPicksAColourAndKeepsTheBrightness) {
   openUnder();
   session.lights().addCircle({0, 0, -1});
   session.lights().setColor(1, Rgb(8));
+  pass(20);
   Pointer(list).click(list->swatch(1).center());
   auto* picker = list->findChild<ColorPicker*>();
   ASSERT_TRUE(picker && picker->isVisible());

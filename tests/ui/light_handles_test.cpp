@@ -14,11 +14,8 @@ namespace {
 
 using test::pass;
 using test::Pointer;
+using test::s;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 TEST(PointOnSphere, IsWhereTheSightMeetsIt) {
   const HandleSphere sphere{{1, 2, 3}, 2};
@@ -56,7 +53,6 @@ class LightHandlesTest : public test::StudioTest {
     session.lights().select(-1);
     pass(30);
   }
-  const LightRecipe& light(int i) { return session.document().recipe().lights.at(std::size_t(i)); }
   ViewGeometry view() { return {session.view().camera(), window.viewport().size()}; }
   QPointF placeOf(const Vec3& direction) {
     const HandleSphere sphere = window.lightHandles().sphere(view());

@@ -18,11 +18,8 @@ namespace {
 using test::difference;
 using test::pass;
 using test::Pointer;
+using test::s;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class MaterialDockTest : public test::StudioTest {
  protected:

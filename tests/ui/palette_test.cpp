@@ -18,12 +18,9 @@ namespace prt::ui {
 namespace {
 
 using test::pass;
+using test::s;
 using test::smallScene;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class PaletteTest : public test::StudioTest {
  protected:

@@ -25,12 +25,9 @@
 namespace prt::ui {
 namespace {
 
+using test::s;
 using test::StudioTest;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class Relink : public StudioTest {
  protected:

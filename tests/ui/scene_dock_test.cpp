@@ -9,6 +9,7 @@
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/property_row.h"
+#include "ui/widgets/section.h"
 #include "ui/widgets/vector_field.h"
 
 #include <QCheckBox>
@@ -27,12 +28,9 @@ namespace {
 
 using test::difference;
 using test::pass;
+using test::s;
 using test::smallScene;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 class SceneDockTest : public test::StudioTest {
  protected:
@@ -44,26 +42,17 @@ class SceneDockTest : public test::StudioTest {
     return *dock().findChild<Widget*>(s(name));
   }
   const std::vector<ObjectRecipe>& objects() { return session.document().recipe().objects; }
-  bool settled() {
-    return waitFor([this] { return session.settled() && session.bakes().fresh(); });
-  }
   void click(QWidget& widget) { QTest::mouseClick(&widget, Qt::LeftButton); }
   void clickRow(QTreeWidget& tree, int row) {
     QTest::mouseClick(tree.viewport(), Qt::LeftButton, Qt::NoModifier,
                       tree.visualItemRect(tree.topLevelItem(row)).center());
   }
-  QString undoName() { return session.document().undoName(); }
 
-  void drop(const QStringList& files) {
-    QMimeData data;
-    QList<QUrl> urls;
-    for (const QString& file : files) urls << QUrl::fromLocalFile(file);
-    data.setUrls(urls);
-    QDragEnterEvent enter(QPoint(20, 20), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&dock(), &enter);
-    if (!enter.isAccepted()) return;
-    QDropEvent event(QPointF(20, 20), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&dock(), &event);
+  void openTransform() {
+    for (auto* section : dock().findChildren<Section*>())
+      if (section->title() == s("Transform"))
+        QTest::mouseClick(section->findChild<QToolButton*>(s("sectionHeader")), Qt::LeftButton);
+    pass(20);
   }
   QString write(const char* name, const char* contents) {
     QFile file(folder.filePath(s(name)));
@@ -101,19 +90,19 @@ TEST_F(SceneDockTest, DroppedMeshesAreAddedAndOthersAreNot) {
   Job job;
   const QString rock = folder.filePath(s("a rock.ply"));
   writeMesh(rock.toStdString(), makeRock({.subdivisions = 3}), {}, job);
-  drop({rock, folder.filePath(s("scene.json"))});
+  drop(dock(), {rock, folder.filePath(s("scene.json"))});
   ASSERT_TRUE(waitFor([this] { return objects().size() == 2; }));
   EXPECT_EQ(objects()[1].name, "a rock");
   ASSERT_TRUE(settled());
   EXPECT_EQ(session.relighter().scene()->names.size(), 2u);
-  drop({folder.filePath(s("scene.json"))});
+  drop(dock(), {folder.filePath(s("scene.json"))});
   pass(30);
   EXPECT_EQ(objects().size(), 2u);
 }
 
 TEST_F(SceneDockTest, ABadMeshIsToldHereAndNothingIsAdded) {
   openAndSettle();
-  drop({write("bad.obj", "v 0 0 0\nf 1 2 3\n")});
+  drop(dock(), {write("bad.obj", "v 0 0 0\nf 1 2 3\n")});
   auto& message = *dock().findChild<MessageBar*>();
   ASSERT_TRUE(waitFor([&] { return message.isVisible(); }));
   EXPECT_TRUE(message.text().contains(s("bad.obj")));
@@ -137,6 +126,47 @@ TEST_F(SceneDockTest, DuplicateAndRemove) {
   EXPECT_EQ(session.selectedObject(), 0);
   QTest::keyClick(&list(), Qt::Key_Delete);
   EXPECT_EQ(objects().size(), 1u);
+}
+
+TEST_F(SceneDockTest, TheEyeHidesAnObjectFromBakeAndPicture) {
+  openAndSettle();
+  session.sceneEditor().add({s("builtin:box")});
+  ASSERT_TRUE(waitFor([this] { return objects().size() == 2; }));
+  ASSERT_TRUE(settled());
+  pass(600);
+  const QImage both = picture();
+  const std::size_t triangles = session.relighter().scene()->mesh.triangleCount();
+  const auto eyeOf = [this](int row) {
+    const QRect cell = list().visualRect(list().model()->index(row, 3));
+    EXPECT_LT(cell.right(), list().visualRect(list().model()->index(row, 0)).left()) << "left of the name";
+    return cell.center();
+  };
+  QTest::mouseClick(list().viewport(), Qt::LeftButton, Qt::NoModifier, eyeOf(1));
+  EXPECT_FALSE(objects()[1].visible);
+  EXPECT_EQ(undoName(), s("Hide box"));
+  ASSERT_TRUE(settled());
+  EXPECT_LT(session.relighter().scene()->mesh.triangleCount(), triangles);
+  pass(600);
+  EXPECT_GT(difference(both, picture()), 0.005);
+
+  // What is alone stays: by its eye, by the key, by removing.
+  QTest::mouseClick(list().viewport(), Qt::LeftButton, Qt::NoModifier, eyeOf(0));
+  EXPECT_TRUE(objects()[0].visible);
+  EXPECT_TRUE(dock().findChild<MessageBar*>()->isVisible()) << "and says why";
+  EXPECT_FALSE(child<QToolButton>("removeObject").isEnabled());
+  list().setFocus();
+  QTest::keyClick(&list(), Qt::Key_H);
+  EXPECT_TRUE(objects()[0].visible);
+  list().setCurrentItem(list().topLevelItem(1));
+  EXPECT_TRUE(child<QToolButton>("removeObject").isEnabled());
+  QTest::keyClick(&list(), Qt::Key_H);
+  EXPECT_TRUE(objects()[1].visible);
+  EXPECT_EQ(undoName(), s("Show box"));
+  ASSERT_TRUE(settled());
+  pass(600);
+  EXPECT_LT(difference(both, picture()), 0.002) << "as it was";
+  session.document().step(-2);
+  EXPECT_TRUE(objects()[1].visible);
 }
 
 TEST_F(SceneDockTest, RenamingInTheList) {
@@ -171,8 +201,22 @@ TEST_F(SceneDockTest, TheGroundSwitchAddsAndTakesAwayOneObject) {
   EXPECT_TRUE(ground.isChecked()) << "undo brings it back";
 }
 
+TEST_F(SceneDockTest, SectionsStayAsTheyWereLeft) {
+  openAndSettle();
+  session.sceneEditor().add({s("builtin:box")});
+  ASSERT_TRUE(settled());
+  const auto visible = [this] { return child<QPushButton>("restOnGround").isVisibleTo(&dock()); };
+  EXPECT_FALSE(visible()) << "folded, so that the list has room";
+  openTransform();
+  EXPECT_TRUE(visible());
+  session.selectObject(0);
+  pass(20);
+  EXPECT_TRUE(visible()) << "of another object, too";
+}
+
 TEST_F(SceneDockTest, ThePositionIsScrubbedAsOneStep) {
   openAndSettle();
+  openTransform();
   auto* row = dock().findChild<PropertyRow*>(s("objects[0].transform.translate"));
   ASSERT_TRUE(row);
   NumberField& y = qobject_cast<VectorField*>(row->editor())->axis(1);
@@ -196,6 +240,7 @@ TEST_F(SceneDockTest, RestOnGroundAndCentre) {
   recipe.objects[0].transform.translate = {2, 3, 1};
   recipe.objects[0].transform.rotate = {0, 0, 80};
   openAndSettle(recipe);
+  openTransform();
   click(child<QPushButton>("restOnGround"));
   EXPECT_NEAR(session.sceneEditor().boundsOf(0).low.y, 0, 1e-5);
   click(child<QPushButton>("centreObject"));

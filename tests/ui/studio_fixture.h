@@ -11,14 +11,22 @@
 
 #include <gtest/gtest.h>
 
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QFile>
+#include <QMimeData>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QUrl>
 #include <QWindow>
 
 #include <memory>
 
 namespace prt::test {
+
+inline QString s(const char* text) {
+  return QString::fromUtf8(text);
+}
 
 class StudioTest : public testing::Test {
  protected:
@@ -38,8 +46,29 @@ class StudioTest : public testing::Test {
   }
   void openAndSettle(const Recipe& recipe = smallScene()) {
     open(recipe);
-    ASSERT_TRUE(waitFor([this] { return session.settled() && session.bakes().fresh(); }));
+    ASSERT_TRUE(settled());
     pass(50);
+  }
+
+  /// Everything is read and baked.
+  bool settled() {
+    return waitFor([this] { return session.settled() && session.bakes().fresh(); });
+  }
+  QString undoName() { return session.document().undoName(); }
+  const LightRecipe& light(int i) { return session.document().recipe().lights.at(std::size_t(i)); }
+  /// Drags files over a widget and lets them go there, if it takes them.
+  static bool drop(QWidget& widget, const QStringList& files) {
+    QMimeData data;
+    QList<QUrl> urls;
+    for (const QString& file : files) urls << QUrl::fromLocalFile(file);
+    data.setUrls(urls);
+    const QPoint at = widget.rect().center();
+    QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&widget, &enter);
+    if (!enter.isAccepted()) return false;
+    QDropEvent event(QPointF(at), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&widget, &event);
+    return true;
   }
 
   QWindow* handle() { return window.windowHandle(); }

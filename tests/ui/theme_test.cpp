@@ -17,9 +17,7 @@
 namespace prt::ui {
 namespace {
 
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
+using test::s;
 
 std::string nameOf(const QColor& color) {
   return color.name().toStdString();

@@ -17,9 +17,7 @@
 namespace prt::ui {
 namespace {
 
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
+using test::s;
 
 // The tip that shows over a widget: its own, or that of what it lies in.
 QString tipOver(const QWidget* widget) {

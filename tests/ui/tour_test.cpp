@@ -54,16 +54,6 @@ using test::waitFor;
 
 class TourTest : public test::StudioTest {
  protected:
-  void drop(const QString& file) {
-    QMimeData data;
-    data.setUrls({QUrl::fromLocalFile(file)});
-    const QPoint at(200, 200);
-    QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window.viewport(), &enter);
-    ASSERT_TRUE(enter.isAccepted());
-    QDropEvent event(QPointF(at), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-    QCoreApplication::sendEvent(&window.viewport(), &event);
-  }
   /// A place in a widget as the window sees it, scrolled to and on top.
   QPoint placeIn(QWidget* widget, const QPointF& at) {
     for (QWidget* up = widget; up; up = up->parentWidget()) {
@@ -86,7 +76,7 @@ class TourTest : public test::StudioTest {
     pass(15);
   }
   void settle() {
-    ASSERT_TRUE(waitFor([this] { return session.settled() && session.bakes().fresh(); }));
+    ASSERT_TRUE(settled());
     pass(100);
   }
   /// Gives a name to the file dialog that the next call opens. A list of completions may swallow a click, so
@@ -119,7 +109,7 @@ TEST_F(TourTest, FromADroppedMeshToASavedProjectThatSurvivesBeingKilled) {
   const QString mesh = folder.filePath(QStringLiteral("rock.obj"));
   Job job;
   writeMesh(mesh.toStdString(), makeBuiltinMesh("rock", 0.4f, 5), {}, job);
-  drop(mesh);
+  ASSERT_TRUE(drop(window.viewport(), {mesh}));
   settle();
   EXPECT_EQ(session.document().title(), QStringLiteral("rock.obj"));
   ASSERT_FALSE(finals.empty());

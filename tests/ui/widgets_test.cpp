@@ -25,12 +25,9 @@ namespace prt::ui {
 namespace {
 
 using test::pass;
+using test::s;
 using test::smallScene;
 using test::waitFor;
-
-QString s(const char* text) {
-  return QString::fromUtf8(text);
-}
 
 // A window with one row of a document.
 struct RowBench {

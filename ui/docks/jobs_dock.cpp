@@ -134,13 +134,14 @@ JobsDock::JobsDock(JobRunner& runner, QWidget* parent)
     : QWidget(parent),
       runner_(runner),
       rows_(nullptr),
-      empty_(new QLabel(tr("Nothing is running. Bakes start by themselves\nafter edits and show up here."))) {
+      empty_(new QLabel(tr("Nothing is running. Bakes start by themselves after edits and show up here."))) {
   setObjectName(QStringLiteral("dockBody"));
   auto* content = new QWidget;
   rows_ = new QVBoxLayout(content);
   rows_->setContentsMargins(0, kGrid, 0, kGrid);
   rows_->setSpacing(0);
   setRole(empty_, "muted");
+  empty_->setWordWrap(true);
   empty_->setContentsMargins(2 * kGrid, kGrid, 2 * kGrid, kGrid);
   rows_->addWidget(empty_);
   rows_->addStretch(1);

@@ -106,9 +106,14 @@ void MaterialDock::showObject(int object) {
 }
 
 void MaterialDock::refreshObjects() {
-  const Recipe& recipe = session_.document().recipe();
-  objects_->clear();
-  for (const ObjectRecipe& object : recipe.objects) objects_->addItem(QString::fromStdString(object.name));
+  QStringList names;
+  for (const ObjectRecipe& object : session_.document().recipe().objects)
+    names << QString::fromStdString(object.name);
+  if (names != names_) {  // every move of a slider comes by here
+    names_ = names;
+    objects_->clear();
+    objects_->addItems(names);
+  }
   objects_->setCurrentIndex(session_.selectedObject());
   refreshMaterial();
 }

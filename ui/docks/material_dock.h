@@ -5,6 +5,8 @@
 #include "ui/model/material_editor.h"
 #include "ui/widgets/section.h"
 
+#include <QStringList>
+
 class QComboBox;
 class QFrame;
 class QLabel;
@@ -41,6 +43,7 @@ class MaterialDock : public DockColumn {
   Section* reflection_;
   QWidget* rows_ = nullptr;  // of the object that is shown
   LobePlot* plot_;
+  QStringList names_;  // in objects_
   bool picturesWanted_ = false;
 };
 

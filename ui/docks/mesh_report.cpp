@@ -5,6 +5,7 @@
 #include "ui/model/session.h"
 #include "ui/widgets/theme.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -103,6 +104,9 @@ QWidget* MeshReport::makeStepper() {
 
 void MeshReport::refill() {
   const ObjectMesh found = session_.sceneEditor().meshOf(session_.selectedObject());
+  const bool same = filled_ && *filled_ == std::pair(found.product, found.index);
+  if (same) return refreshShown();  // every move of a light comes by here
+  filled_ = {found.product, found.index};
   lines_->clear();
   kinds_.clear();
   QStringList notes;
@@ -131,6 +135,14 @@ void MeshReport::refill() {
   notes_->setVisible(!notes.isEmpty());
   notes_->setText(notes.join(u'\n'));
   refreshShown();
+}
+
+// The dots have the theme's colours.
+void MeshReport::changeEvent(QEvent* event) {
+  Section::changeEvent(event);
+  if (event->type() != QEvent::PaletteChange || !filled_) return;
+  filled_.reset();
+  refill();
 }
 
 void MeshReport::refreshShown() {

@@ -5,11 +5,19 @@
 #include "libprt/mesh/defect_list.h"
 #include "ui/widgets/section.h"
 
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 class QLabel;
 class QToolButton;
 class QTreeWidget;
+
+namespace prt {
+struct MeshProduct;
+}
 
 namespace prt::ui {
 
@@ -19,6 +27,9 @@ class MeshReport : public Section {
   Q_OBJECT
  public:
   explicit MeshReport(Session& session, QWidget* parent = nullptr);
+
+ protected:
+  void changeEvent(QEvent* event) override;
 
  private:
   QWidget* makeStepper();
@@ -34,6 +45,8 @@ class MeshReport : public Section {
   QLabel* meaning_;
   QLabel* notes_;
   std::vector<DefectKind> kinds_;  // of the rows
+  // What the rows are about: a product and an object in it.
+  std::optional<std::pair<std::shared_ptr<const MeshProduct>, std::size_t>> filled_;
 };
 
 }  // namespace prt::ui

@@ -82,6 +82,7 @@ QWidget* ObjectSections::makeTransform(const QString& base) {
   buttons->addWidget(centre_, 2);
   section->addLayout(buttons);
   section->setOpen(transformOpen_);
+  connect(section, &Section::toggled, this, [this](bool open) { transformOpen_ = open; });
   return section;
 }
 
@@ -96,6 +97,7 @@ QWidget* ObjectSections::makeMesh(const QString& base) {
                                  cut ? tr("Split edges") : QString()));
   }
   section->setOpen(meshOpen_);
+  connect(section, &Section::toggled, this, [this](bool open) { meshOpen_ = open; });
   return section;
 }
 

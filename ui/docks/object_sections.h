@@ -26,8 +26,8 @@ class ObjectSections : public QWidget {
   NumberField* size_ = nullptr;
   QPushButton* rest_ = nullptr;
   QPushButton* centre_ = nullptr;
-  bool builtin_ = false;  // the rows are those of a built-in mesh
-  bool transformOpen_ = true, meshOpen_ = false;
+  bool builtin_ = false;                           // the rows are those of a built-in mesh
+  bool transformOpen_ = false, meshOpen_ = false;  // as the user left them
 };
 
 }  // namespace prt::ui

@@ -4,6 +4,7 @@
 #include "ui/docks/object_sections.h"
 #include "ui/model/expression.h"
 #include "ui/model/scene_editor.h"
+#include "ui/model/scene_edits.h"
 #include "ui/model/session.h"
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/theme.h"
@@ -26,6 +27,7 @@ namespace prt::ui {
 namespace {
 
 constexpr int kLeastRows = 2, kMostRows = 8;  // of the list, before it scrolls
+constexpr int kEye = 3, kEyeWidth = 24;       // column, shown first
 
 struct Counts {
   qint64 vertices = 0, triangles = 0;
@@ -76,19 +78,27 @@ SceneDock::SceneDock(Session& session, QWidget* parent)
 
 void SceneDock::makeList() {
   objects_->setObjectName(QStringLiteral("objectList"));
-  objects_->setHeaderLabels({tr("Object"), tr("Vertices"), tr("Triangles")});
+  objects_->setHeaderLabels({tr("Object"), tr("Vertices"), tr("Triangles"), QString()});
+  objects_->header()->moveSection(kEye, 0);
+  objects_->header()->setMinimumSectionSize(kEyeWidth);
+  objects_->header()->setSectionResizeMode(kEye, QHeaderView::Fixed);
+  objects_->header()->resizeSection(kEye, kEyeWidth);
   objects_->setRootIsDecorated(false);
   objects_->setUniformRowHeights(true);
   objects_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   objects_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   objects_->header()->setStretchLastSection(false);
   objects_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  objects_->headerItem()->setTextAlignment(0, Qt::AlignLeft | Qt::AlignVCenter);
   for (const int column : {1, 2}) {
     objects_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
-    objects_->headerItem()->setTextAlignment(column, Qt::AlignRight);
+    objects_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }
   connect(objects_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (item) session_.selectObject(objects_->indexOfTopLevelItem(item));
+  });
+  connect(objects_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item, int column) {
+    if (column == kEye) toggle(objects_->indexOfTopLevelItem(item));
   });
   // Queued: a rename fills the list anew, and the item that tells of it must outlive its telling.
   connect(objects_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
@@ -117,6 +127,7 @@ void SceneDock::makeActions() {
     return each;
   };
   action("edit-rename", tr("Rename"), {}, [this](int) { objects_->editItem(objects_->currentItem(), 0); });
+  action("view-visible", tr("Hide or show"), QKeySequence(Qt::Key_H), [this](int object) { toggle(object); });
   action("edit-duplicate", tr("Duplicate"), QKeySequence(Qt::CTRL | Qt::Key_D),
          [this](int object) { session_.sceneEditor().duplicate(object); });
   action("edit-delete", tr("Remove"), QKeySequence::Delete,
@@ -166,6 +177,13 @@ QWidget* SceneDock::makeBar() {
   return bar;
 }
 
+void SceneDock::toggle(int object) {
+  SceneEditor& editor = session_.sceneEditor();
+  if (editor.visible(object) && !editor.canHide(object))
+    message_->show(Severity::Info, tr("A scene shows one object at least."));
+  editor.setVisible(object, !editor.visible(object));
+}
+
 int SceneDock::current() const {
   return objects_->indexOfTopLevelItem(objects_->currentItem());
 }
@@ -182,6 +200,17 @@ void SceneDock::dragEnterEvent(QDragEnterEvent* event) {
 void SceneDock::dropEvent(QDropEvent* event) {
   session_.sceneEditor().add(meshFiles(*event->mimeData()));
   event->acceptProposedAction();
+}
+
+// Hidden, the name is as faint as a muted light's.
+void SceneDock::showEye(QTreeWidgetItem& item, bool visible) {
+  if (item.data(kEye, Qt::UserRole) == QVariant(visible)) return;
+  item.setData(kEye, Qt::UserRole, visible);
+  item.setIcon(kEye, icon(visible ? QStringLiteral("view-visible") : QStringLiteral("view-hidden")));
+  item.setToolTip(kEye, visible ? tr("Hide the object: it takes no part in bake and picture (H).")
+                                : tr("Show the object again (H)."));
+  for (const int column : {0, 1, 2})
+    item.setData(column, Qt::ForegroundRole, visible ? QVariant() : QVariant(theme().muted));
 }
 
 void SceneDock::refresh() {
@@ -201,18 +230,21 @@ void SceneDock::refresh() {
     QTreeWidgetItem* item = objects_->topLevelItem(int(i));
     item->setText(0, QString::fromStdString(recipe.objects[i].name));
     item->setToolTip(0, QString::fromStdString(recipe.objects[i].mesh.path));
-    item->setText(1, sameScene ? formatCount(counts[i].vertices) : QStringLiteral("\u2013"));
-    item->setText(2, sameScene ? formatCount(counts[i].triangles) : QStringLiteral("\u2013"));
+    showEye(*item, recipe.objects[i].visible);
+    const bool counted = sameScene && recipe.objects[i].visible;
+    item->setText(1, counted ? formatCount(counts[i].vertices) : QStringLiteral("\u2013"));
+    item->setText(2, counted ? formatCount(counts[i].triangles) : QStringLiteral("\u2013"));
   }
   objects_->setCurrentItem(objects_->topLevelItem(session_.selectedObject()));
   const int rows = std::clamp(int(recipe.objects.size()), kLeastRows, kMostRows);
   objects_->setFixedHeight((rows + 1) * kRowHeight + 2);
-  const bool removable = session_.sceneEditor().canRemove();
+  const bool removable = session_.sceneEditor().canRemove(session_.selectedObject());
   remove_->setEnabled(removable);
   remove_->setToolTip(removable ? tr("Remove the selected object (Del)")
-                                : tr("A scene has one object at least."));
+                                : tr("A scene shows one object at least."));
   ground_->setChecked(session_.sceneEditor().hasGround());
-  ground_->setEnabled(!session_.sceneEditor().hasGround() || removable);
+  const int ground = groundObject(recipe);
+  ground_->setEnabled(ground < 0 || session_.sceneEditor().canRemove(ground));
 }
 
 }  // namespace prt::ui

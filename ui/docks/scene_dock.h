@@ -29,6 +29,8 @@ class SceneDock : public DockColumn {
   void makeActions();
   void addFromFile();
   void refresh();
+  void toggle(int object);
+  static void showEye(QTreeWidgetItem& item, bool visible);
   int current() const;
 
   Session& session_;

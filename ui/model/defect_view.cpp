@@ -78,7 +78,8 @@ void DefectView::follow() {
 void DefectView::apply(bool frame) {
   const DefectPlaces& places = line()->places;
   const auto& object = session_.document().recipe().objects[std::size_t(shown_->object)];
-  const SurfaceMarks marks = marksOf(places, shown_->element, object.transform.matrix());
+  const SurfaceMarks marks =
+      object.visible ? marksOf(places, shown_->element, object.transform.matrix()) : SurfaceMarks{};
   session_.layers().setMarks(marks);
   Box3 box = marks.bounds();
   if (!frame || box.empty()) return;

@@ -90,13 +90,14 @@ void SceneEditor::add(const QStringList& meshes) {
                         finish);
 }
 
-bool SceneEditor::canRemove() const {
-  return session_.document().recipe().objects.size() > 1;
+bool SceneEditor::canRemove(int object) const {
+  const auto& objects = session_.document().recipe().objects;
+  return objectAt(object) && objects.size() > 1 && (!visible(object) || canHide(object));
 }
 
 void SceneEditor::remove(int object) {
   const ObjectRecipe* old = objectAt(object);
-  if (!old || !canRemove()) return;
+  if (!old || !canRemove(object)) return;
   edit(tr("Remove %1").arg(QString::fromStdString(old->name)),
        withoutObject(session_.document().recipe(), object));
 }
@@ -118,6 +119,25 @@ void SceneEditor::rename(int object, const QString& name) {
   Recipe next = session_.document().recipe();
   next.objects[std::size_t(object)].name = wanted.toStdString();
   edit(tr("Rename %1").arg(QString::fromStdString(old->name)), next);
+}
+
+bool SceneEditor::visible(int object) const {
+  const ObjectRecipe* at = objectAt(object);
+  return at && at->visible;
+}
+
+bool SceneEditor::canHide(int object) const {
+  const auto& objects = session_.document().recipe().objects;
+  return visible(object) &&
+         std::count_if(objects.begin(), objects.end(), [](const ObjectRecipe& o) { return o.visible; }) > 1;
+}
+
+void SceneEditor::setVisible(int object, bool on) {
+  const ObjectRecipe* old = objectAt(object);
+  if (!old || old->visible == on || (!on && !canHide(object))) return;
+  Recipe next = session_.document().recipe();
+  next.objects[std::size_t(object)].visible = on;
+  edit((on ? tr("Show %1") : tr("Hide %1")).arg(QString::fromStdString(old->name)), next);
 }
 
 void SceneEditor::restOnGround(int object) {
@@ -143,11 +163,11 @@ bool SceneEditor::hasGround() const {
 void SceneEditor::setGround(bool on) {
   if (on == hasGround()) return;
   const Recipe& recipe = session_.document().recipe();
-  if (!on && !canRemove()) return;
+  if (!on && !canRemove(groundObject(recipe))) return;
   if (!on) return edit(tr("Remove ground plane"), withoutObject(recipe, groundObject(recipe)));
   Box3 all;
   for (int i = 0; i < int(recipe.objects.size()); ++i)
-    if (const Box3 box = boundsOf(i); !box.empty()) all.extend(box.low), all.extend(box.high);
+    if (const Box3 box = boundsOf(i); visible(i) && !box.empty()) all.extend(box.low), all.extend(box.high);
   edit(tr("Add ground plane"), withGround(recipe, all));
 }
 

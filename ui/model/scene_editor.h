@@ -37,10 +37,14 @@ class SceneEditor : public QObject {
   static bool isMesh(const QString& file);
   static QStringList builtinMeshes();
 
-  bool canRemove() const;  ///< a scene has one object at least
+  bool canRemove(int object) const;  ///< a scene shows one object at least
   void remove(int object);
   void duplicate(int object);
   void rename(int object, const QString& name);
+  bool visible(int object) const;
+  /// One object stays visible at least.
+  bool canHide(int object) const;
+  void setVisible(int object, bool visible);
   void restOnGround(int object);
   void centre(int object);
   void resize(int object, double size);

@@ -58,6 +58,11 @@ int PresetGrid::presetAt(const QPoint& at) const {
   return -1;
 }
 
+// Its rows are as high as the width makes them; columns of docks do not ask again for that.
+void PresetGrid::resizeEvent(QResizeEvent*) {
+  setFixedHeight(heightForWidth(width()));
+}
+
 void PresetGrid::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);

@@ -56,7 +56,7 @@ void RecoveryBar::refresh() {
     delete item;
   }
   const auto& found = project_.recoveries();
-  setVisible(!found.empty());
+  hide();  // shown with its rows: those that are added to what is shown already have no size yet
   if (found.empty()) return;
   auto* head = new QWidget;
   auto* layout = new QHBoxLayout(head);
@@ -77,7 +77,7 @@ void RecoveryBar::refresh() {
     setRole(more, "muted");
     rows_->addWidget(more);
   }
-  adjustSize();
+  show();
   Q_EMIT resized();
 }
 

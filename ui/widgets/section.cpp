@@ -51,6 +51,7 @@ void Section::setOpen(bool open) {
   header_->setChecked(open);
   header_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
   body_->setVisible(open);
+  Q_EMIT toggled(open);
 }
 
 DockColumn::DockColumn(QWidget* parent) : QWidget(parent), rows_(nullptr) {

@@ -21,6 +21,9 @@ class Section : public QWidget {
   QString title() const;
   bool isOpen() const;
 
+ Q_SIGNALS:
+  void toggled(bool open);
+
  private:
   QToolButton* header_;
   QWidget* body_;
