@@ -4,6 +4,7 @@
 #include "app/cli/progress_bar.h"
 #include "app/cli/recipe_page.h"
 #include "app/cli/session.h"
+#include "libprt/core/log.h"
 #include "libprt/project/scenes.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,15 @@ void tell(const Session& session, const BakeSummary& s) {
     session.say(fmt::format(
         "errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %",
         100 * s.floor->interpolation, 100 * s.floor->interpolationError, 100 * s.floor->sampling));
+  if (s.rtt) {
+    const BakeSummary::RttFacts& r = *s.rtt;
+    session.say(
+        fmt::format("radiance transfer texture: {0} x {0} texels, {1} x {1} views, {2} functions, {3}, {4} "
+                    "bounces, patch depth {5:.3f}; storage error {6:.3f} %",
+                    r.texels, r.views, r.bands * r.bands, r.channels == 3 ? "RGB" : "scalar", r.bounces,
+                    r.depth, 100 * r.storageError));
+    if (!r.warning.empty()) logWarning(r.warning);
+  }
   for (const BakeSummary::StageTime& stage : s.stages)
     if (stage.made) session.say(fmt::format("  {:<10} {:8.2f} s", stage.name, stage.seconds));
   session.say(fmt::format("saved {} ({})", s.file.string(), byteCount(double(s.bytes))));
@@ -53,7 +63,7 @@ void tell(const Session& session, const BakeSummary& s) {
 void bake(Session& session, const Options& options) {
   RecipeSource source = openRecipe(options.input);
   for (const std::string& assignment : options.assignments) setByAssignment(source.recipe, assignment);
-  if (session.seed) source.recipe.transfer.seed = *session.seed;
+  if (session.seed) source.recipe.transfer.seed = source.recipe.rtt.seed = *session.seed;
   BakeOptions bakeOptions;
   bakeOptions.output = options.output.empty() ? source.project : std::filesystem::path(options.output);
   if (bakeOptions.output.empty()) throw UsageError("no output is named", "-o", "add for example -o out.prt");

@@ -5,6 +5,7 @@
 #include "libprt/core/log.h"
 #include "libprt/project/errors.h"
 #include "libprt/project/lights.h"
+#include "libprt/project/patch_stages.h"
 #include "libprt/project/project_file.h"
 
 #include <fmt/format.h>
@@ -44,6 +45,14 @@ void exportProject(Session& session, const Options& options) {
   Pipeline pipeline(project.get(), {folder});
   EnvironmentCache environments;
   const Recipe& recipe = project->recipe();
+  const auto rtt = pipeline.find(recipe, {"rtt"}).get<RttProduct>("rtt");
+  const auto patch = pipeline.find(recipe, {"patch"}).get<PatchProduct>("patch");
+  if (rtt && rtt->rtt && !options.npy.empty() && !pipeline.find(recipe, {"transfer"}).state("transfer")) {
+    const ExportedFiles files = exportRtt(*rtt->rtt, patch ? patch->patch.get() : nullptr, options.npy);
+    session.say(fmt::format("wrote the radiance transfer texture alone to {}", options.npy));
+    session.result({{"npy", {{"folder", options.npy}, {"files", files}}}});
+    return;
+  }
   const BakedScene baked = bakedScene(pipeline, recipe, options.project);
   const auto frames = pipeline.run(recipe, {"frames"}, session.job()).get<FramesProduct>("frames");
   ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
@@ -51,6 +60,8 @@ void exportProject(Session& session, const Options& options) {
     logWarning(fmt::format("transfer is a preview, {} of {}", input.baked.level, input.baked.levels));
   nlohmann::json written;
   if (options.errors) input.errors = estimate(session, input);
+  if (rtt) input.rtt = rtt->rtt;
+  if (patch) input.patch = patch->patch;
   const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
     session.say(fmt::format("wrote {} files to {}", files.size(), where));
     written[kind] = {{"folder", where}, {"files", files}};

@@ -47,6 +47,8 @@ constexpr SectionTitle kSections[] = {
     {"lights[]", "Lights", "What shines when pictures are made; no bake depends on it."},
     {"cameras[]", "Cameras", "Views by name. Without any a view that frames everything is used."},
     {"transfer", "Transfer", "What is baked; see [transfer](transfer.md)."},
+    {"patch", "Patch", "The fine structure of the surface, one period of it; see [meso scale](meso.md)."},
+    {"rtt", "Radiance transfer texture", "How the patch answers to light; baked when there is a patch."},
     {"method", "Method", "How pictures are made from what is baked."},
 };
 

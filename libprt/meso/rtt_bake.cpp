@@ -27,7 +27,7 @@ struct Layout {
 
   Layout(const Patch& patch, const PatchLight& light) {
     const auto grey = [](const Rgb& c) { return c.x == c.y && c.y == c.z; };
-    bool uniform = !patch.albedoTexture, allGrey = !patch.albedoTexture || light.channels == 1;
+    bool uniform = !patch.albedoTexture, allGrey = !patch.albedoTexture || patch.albedoTexture->channels < 3;
     for (const Rgb& c : patch.albedo)
       uniform = uniform && c == patch.albedo.front(), allGrey = allGrey && grey(c);
     const bool greyGloss = !patch.glossy() || (grey(patch.specular) && !patch.glossTexture);

@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/log.h"
+#include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
 
@@ -51,10 +52,10 @@ class Timer : public PipelineListener {
   Clock::time_point begun_;
 };
 
-std::vector<std::string> storedStages() {
+std::vector<std::string> storedStages(const Recipe& recipe) {
   std::vector<std::string> names;
   for (const Stage& stage : stages())
-    if (stage.stored) names.push_back(stage.name);
+    if (stage.stored && (!stage.wanted || stage.wanted(recipe))) names.push_back(stage.name);
   return names;
 }
 
@@ -79,6 +80,18 @@ std::vector<BakeSummary::Object> describeObjects(const Recipe& recipe, const Mes
 BakeSummary::TransferFacts describeTransfer(const Transfer& t) {
   const std::size_t bytes = t.values.bytes.size() + t.diffuse.bytes.size() + t.surface.bytes.size();
   return {toString(t.form), t.bands, t.raysPerSample, t.bounces, t.samples, bytes, t.storageError};
+}
+
+BakeSummary::RttFacts describeRtt(const RttProduct& product, const PatchProduct* patch) {
+  const Rtt& r = *product.rtt;
+  return {r.texels,
+          r.views,
+          r.bands,
+          r.channels,
+          r.bounces,
+          patch && patch->patch ? double(patch->patch->depth()) : 0,
+          patch && patch->patch ? thinPatchWarning(*patch->patch, r.views) : "",
+          product.storageError};
 }
 
 }  // namespace
@@ -112,7 +125,7 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
     Pipeline pipeline(project.get(), {folderOf(options.output), options.checkpointSeconds});
     Timer timer(listener);
     const Products products =
-        pipeline.run(recipe, options.stages.empty() ? storedStages() : options.stages, job, &timer);
+        pipeline.run(recipe, options.stages.empty() ? storedStages(recipe) : options.stages, job, &timer);
     if (project->hasNewWork() || !sameRecipe || !project->saved()) {
       project->keepOnly(pipeline.liveKeys(recipe));
       project->save();
@@ -125,6 +138,8 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
       summary.objects = describeObjects(recipe, *meshes);
     if (const auto transfer = products.get<TransferProduct>("transfer"))
       summary.transfer = describeTransfer(transfer->transfer);
+    if (const auto rtt = products.get<RttProduct>("rtt"); rtt && rtt->rtt)
+      summary.rtt = describeRtt(*rtt, products.get<PatchProduct>("patch").get());
     if (const auto floor = products.get<FloorProduct>("floor")) summary.floor = floor->floor;
     return summary;
   } catch (...) {
@@ -152,6 +167,11 @@ nlohmann::json toJson(const BakeSummary& s) {
                         {"bytes", t.bytes},
                         {"storage_error", t.storageError}};
   }
+  if (s.rtt)
+    json["rtt"] = {{"texels", s.rtt->texels},   {"views", s.rtt->views},
+                   {"bands", s.rtt->bands},     {"channels", s.rtt->channels},
+                   {"bounces", s.rtt->bounces}, {"depth", s.rtt->depth},
+                   {"warning", s.rtt->warning}, {"storage_error", s.rtt->storageError}};
   if (s.floor)
     json["floor"] = {{"interpolation", s.floor->interpolation},
                      {"standard_error", s.floor->interpolationError},

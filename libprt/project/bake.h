@@ -48,6 +48,13 @@ struct BakeSummary {
   };
   std::optional<TransferFacts> transfer;  ///< when it was made or found
   std::optional<InterpolationFloor> floor;
+  struct RttFacts {
+    int texels = 0, views = 0, bands = 0, channels = 0, bounces = 0;
+    double depth = 0;     ///< of the patch, relative to its width
+    std::string warning;  ///< when it is too thick; empty: it is not
+    double storageError = 0;
+  };
+  std::optional<RttFacts> rtt;  ///< when there is a patch
 };
 
 nlohmann::json toJson(const BakeSummary& summary);

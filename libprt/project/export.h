@@ -4,6 +4,8 @@
 // are replaced one by one, each in one step.
 
 #include "libprt/light/light_rig.h"
+#include "libprt/meso/patch.h"
+#include "libprt/meso/rtt.h"
 #include "libprt/project/relight.h"
 #include "libprt/transport/error_map.h"
 
@@ -21,6 +23,8 @@ struct ExportInput {
   std::shared_ptr<const FramesProduct> frames;
   LightRig lights;                                   ///< the light that pictures and vertex colours show
   std::shared_ptr<const ErrorMap> errors = nullptr;  ///< written by exportNpy() when given
+  std::shared_ptr<const Rtt> rtt = nullptr;          ///< the same
+  std::shared_ptr<const Patch> patch = nullptr;      ///< the same
 };
 
 /// Files that were written, relative to the folder.
@@ -35,9 +39,16 @@ using ExportedFiles = std::vector<std::string>;
 ///   response [O,512,n,n]: where something is glossy and the form can show it, GlossyResponse as a table,
 ///   view angle, lobe, band; zeros for objects that are not (docs/handover.md)
 ///   light [k,3]: coefficients of the current lights
-///   error_estimate [V,3], when there is one: Monte Carlo, interpolation, truncation (transport/error_map.h)
+///   rtt [texels,texels,views,views,k] or [..,k,3], when there is one: v, u, view_y, view_x (meso/rtt.h)
+///   patch_positions, patch_normals, patch_albedo [P,3], patch_faces [Q,3]: one period of the patch, in its
+///   frame error_estimate [V,3], when there is one: Monte Carlo, interpolation, truncation
+///   (transport/error_map.h)
 /// Throws ResourceError when the expanded matrices do not fit in memory, FileError when it cannot write.
 ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job);
+
+/// The radiance transfer texture alone, with a manifest: for projects in which nothing else is baked.
+/// `patch` may be null.
+ExportedFiles exportRtt(const Rtt& rtt, const Patch* patch, const std::filesystem::path& folder);
 
 /// environment.exr (the lights as a lat-long map, 1024 x 512; discs and directional lights left out),
 /// light_bands.exr (the light that transfer sees: `bands` bands, non-negative) and picture_NAME.exr, one of

@@ -96,6 +96,34 @@ Array glossyResponses(const std::vector<ObjectRecipe>& objects, int bands) {
 
 using Write = std::function<void(const std::string& name, const Array& array, const std::string& doc)>;
 
+void writeRtt(const Rtt& rtt, const std::filesystem::path& folder, ExportManifest& manifest) {
+  const Array array = rtt.array();
+  writeNpy(folder / "rtt.npy", array);
+  manifest.set("rtt_bands", rtt.bands).set("rtt_bounces", rtt.bounces);
+  manifest.addArray(
+      "rtt", array,
+      "radiance transfer texture: v, u, view_y, view_x, function (, colour); v up, cell-centred, tangent = "
+      "+u, views on the Shirley-Chiu square of the hemisphere about the patch's normal");
+}
+
+/// One period of the surface, with what lies on its vertices.
+void writePatch(const Patch& patch, const std::filesystem::path& folder, ExportManifest& manifest) {
+  std::vector<Vec3> albedo;
+  for (std::size_t v = 0; v < patch.albedo.size(); ++v)
+    albedo.push_back(patch.albedo[v] * lookUp(patch.albedoTexture, Vec2(patch.mesh.positions[v])));
+  const auto write = [&](const std::string& name, const Array& array, const std::string& doc) {
+    writeNpy(folder / (name + ".npy"), array);
+    manifest.addArray(name, array, doc);
+  };
+  manifest.set("patch_middle", patch.middle()).set("patch_depth", patch.depth());
+  write("patch_positions", rows(patch.mesh.positions),
+        "u, v and height of the patch's vertices, in patch widths");
+  write("patch_normals", rows(patch.mesh.normals), "their unit shading normals");
+  write("patch_albedo", rows(albedo), "their diffuse reflectance, linear Rec.709");
+  write("patch_faces", indices(patch.mesh.triangles),
+        "corners of each triangle, counter-clockwise from outside");
+}
+
 /// What a Phong lobe needs beside the matrices.
 void writeGloss(const ExportInput& input, const Write& write) {
   std::vector<Vec3> specular;
@@ -113,6 +141,14 @@ void writeGloss(const ExportInput& input, const Write& write) {
 }
 
 }  // namespace
+
+ExportedFiles exportRtt(const Rtt& rtt, const Patch* patch, const std::filesystem::path& folder) {
+  ExportManifest manifest(folder, "npy");
+  manifest.set("bands", rtt.bands).set("functions", rtt.functions());
+  writeRtt(rtt, folder, manifest);
+  if (patch) writePatch(*patch, folder, manifest);
+  return manifest.finish();
+}
 
 ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job) {
   const Scene& scene = *input.baked.geometry->scene;
@@ -158,6 +194,8 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
           "row = transferred incident radiance, column = light, both in the object frame");
   write("transfer_diffuse", firstRows(whiteLambert(transfer, samples.shadingNormal), vertices),
         "exit radiance of a white Lambert surface per unit light coefficient");
+  if (input.rtt) writeRtt(*input.rtt, folder, manifest);
+  if (input.patch) writePatch(*input.patch, folder, manifest);
   if (input.errors) {
     const DVec3& rms = input.errors->rms;
     manifest.set("error_rms", std::vector<double>{rms.x, rms.y, rms.z})

@@ -186,7 +186,7 @@ std::vector<Value> PipelineRun::readValues() {
     std::string text = fieldToJson(field, p).dump();
     if (p.type == ParameterType::File) {
       const std::string& path = *std::get<std::string*>(field);
-      if (!isBuiltin(path)) text = pipeline_.sourceHash(path);
+      if (!path.empty() && !isBuiltin(path)) text = pipeline_.sourceHash(path);
     }
     values.push_back({p.path, place.path() + "=" + text});
   });

@@ -9,6 +9,7 @@
 
 #include "libprt/core/math.h"
 #include "libprt/material/material.h"
+#include "libprt/meso/patch_build.h"
 #include "libprt/shade/camera.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -102,6 +103,22 @@ struct TransferRecipe {
   bool operator==(const TransferRecipe&) const = default;
 };
 
+enum class RttStorage { Float, Half, Byte };
+
+/// The radiance transfer texture of the patch (meso/rtt_bake.h).
+struct RttRecipe {
+  int texels = 64;
+  int views = 8;
+  int bands = 5;
+  int rays = 1024;
+  int bounces = 2;
+  int supersamples = 4;
+  int lobeRays = 16;
+  RttStorage storage = RttStorage::Float;
+  std::uint64_t seed = 1;
+  bool operator==(const RttRecipe&) const = default;
+};
+
 /// How a picture is made from the products; baking does not read it.
 struct MethodRecipe {
   std::string name = "auto";
@@ -114,6 +131,8 @@ struct Recipe {
   std::vector<LightRecipe> lights{LightRecipe{}};
   std::vector<CameraRecipe> cameras;  ///< empty: a view that frames everything
   TransferRecipe transfer;
+  PatchOptions patch;
+  RttRecipe rtt;
   MethodRecipe method;
   bool operator==(const Recipe&) const = default;
 };

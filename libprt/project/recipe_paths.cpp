@@ -20,7 +20,7 @@ std::string longForm(std::string path) {
     const std::string prefix = section;
     if (path == prefix || path.starts_with(prefix + ".")) path = "objects[0]." + path;
   }
-  return path.ends_with(".mesh") ? path + ".path" : path;
+  return path.starts_with("objects[") && path.ends_with(".mesh") ? path + ".path" : path;
 }
 
 /// "objects[2].mesh.path" -> "objects[].mesh.path".

@@ -47,6 +47,40 @@ void resolveMesh(MeshRecipe& mesh) {
   if (mesh.path == "builtin:rock") mesh.seed = given.seed;
 }
 
+/// Only what the patch's kind reads.
+void resolvePatch(Recipe& recipe) {
+  const PatchOptions given = recipe.patch;
+  PatchOptions& patch = recipe.patch = {};
+  patch.model = given.model;
+  if (given.model == PatchModel::None) {
+    recipe.rtt = {};
+    return;
+  }
+  if (given.model == PatchModel::Btf) {
+    const RttRecipe rtt = recipe.rtt;
+    recipe.rtt = {};
+    recipe.rtt.texels = rtt.texels, recipe.rtt.views = rtt.views, recipe.rtt.bands = rtt.bands;
+    recipe.rtt.storage = rtt.storage;
+    patch.btf = given.btf;
+    return;
+  }
+  patch.texture = given.texture, patch.gloss = given.gloss;
+  patch.albedo = given.albedo, patch.specular = given.specular;
+  if (luminance(given.specular) > 0)
+    patch.exponent = given.exponent;
+  else
+    patch.gloss.clear(), recipe.rtt.lobeRays = RttRecipe{}.lobeRays;
+  if (given.model == PatchModel::HeightField) {
+    patch.heightmap = given.heightmap, patch.depth = given.depth, patch.grid = given.grid;
+    if (isBuiltin(given.heightmap)) patch.count = given.count, patch.seed = given.seed;
+  } else if (given.model == PatchModel::Weave) {
+    patch.depth = given.depth, patch.yarns = given.yarns, patch.radius = given.radius;
+    patch.amplitude = given.amplitude, patch.warp = given.warp;
+  } else if (given.model == PatchModel::Mesh) {
+    patch.mesh = given.mesh, patch.period = given.period;
+  }
+}
+
 void resolveMaterial(Material& material) {
   if (material.glossy()) return;
   const Material defaults;
@@ -75,6 +109,7 @@ std::vector<std::string> contradictions(const Recipe& recipe) {
 Recipe resolved(const Recipe& recipe) {
   Recipe out = recipe;
   resolveTransfer(recipe, out.transfer);
+  resolvePatch(out);
   for (ObjectRecipe& object : out.objects) {
     resolveMesh(object.mesh);
     resolveMaterial(object.material);

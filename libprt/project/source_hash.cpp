@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/hash.h"
+#include "libprt/meso/btf_import.h"
 
 #include <nlohmann/json.hpp>
 
@@ -64,10 +65,27 @@ std::vector<fs::path> buffersOf(const fs::path& gltf) {
   return files;
 }
 
+/// Images of a BTF's manifest. What cannot be understood is left to the import.
+std::vector<fs::path> imagesOf(const fs::path& manifest) {
+  std::vector<fs::path> files;
+  try {
+    for (const BtfEntry& entry : openBtf(manifest).images) {
+      const fs::path file = manifest.parent_path() / entry.file;
+      std::error_code error;
+      if (fs::is_regular_file(file, error)) files.push_back(file);
+    }
+  } catch (const FileError&) {
+    files.clear();
+  }
+  return files;
+}
+
 }  // namespace
 
 std::vector<fs::path> filesBeside(const fs::path& file) {
-  return lowerExtension(file) == ".gltf" ? buffersOf(file) : std::vector<fs::path>{};
+  const std::string extension = lowerExtension(file);
+  if (extension == ".gltf") return buffersOf(file);
+  return extension == ".json" ? imagesOf(file) : std::vector<fs::path>{};
 }
 
 std::string hashSource(const fs::path& file) {

@@ -8,7 +8,8 @@
 
 namespace prt {
 
-/// Hash of a file and of the files that it refers to (the buffers of a .gltf). Throws FileError.
+/// Hash of a file and of the files that it refers to (the buffers of a .gltf, the images of a BTF's
+/// manifest). Throws FileError.
 std::string hashSource(const std::filesystem::path& file);
 
 /// The files that it refers to, as far as they are there.

@@ -5,6 +5,7 @@
 #include "libprt/mesh/generate.h"
 #include "libprt/mesh/repair.h"
 #include "libprt/project/errors.h"
+#include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 
 #include <nlohmann/json.hpp>
@@ -77,6 +78,19 @@ std::vector<Stage> makeStages() {
        .previews = false,
        .make = makeFloor,
        .load = FloorProduct::load},
+      {.name = "patch",
+       .makes = "one period of the surface's fine structure",
+       .reads = {"patch"},
+       .wanted = hasPatch,
+       .make = makePatchStage,
+       .load = PatchProduct::load},
+      {.name = "rtt",
+       .makes = "how the patch answers to light, for every texel and view",
+       .inputs = {"patch"},
+       .reads = {"rtt"},
+       .wanted = hasPatch,
+       .make = makeRttStage,
+       .load = RttProduct::load},
   };
 }
 

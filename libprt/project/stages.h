@@ -7,6 +7,7 @@
 //   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
 //                  ├─> rays ────┘                       ├─> relight
 //                  └─> frames ──────────────────────────┘
+//   patch ─> rtt
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
@@ -67,6 +68,8 @@ struct Stage {
   std::vector<std::string> extends = {};
   /// Further text for the key, worked out from the recipe: when only a consequence of settings matters.
   std::function<std::string(const Recipe&)> derives = {};
+  /// Whether a bake of everything makes it; absent: always.
+  std::function<bool(const Recipe&)> wanted = {};
   bool stored = true;    ///< kept in the project; false for what is quicker made than read
   bool previews = true;  ///< quick enough to be run on every preview of its inputs
   std::function<ProductPtr(StageRun&)> make = {};

@@ -18,6 +18,8 @@ BenchResult benchBake(Job& job, int repetitions);
 BenchResult benchBounces(Job& job, int repetitions);
 /// Dense transfer applied to RGB light against reading the matrices.
 BenchResult benchTransfer(Job& job, int repetitions);
+/// The default weave's radiance transfer texture against its own rays traced and thrown away.
+BenchResult benchRtt(Job& job, int repetitions);
 /// prt-studio's frames under a real hand's events against what must hold; `repetitions` frames of each part.
 BenchResult benchStudio(Job& job, int repetitions);
 

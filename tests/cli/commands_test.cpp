@@ -26,8 +26,8 @@ using nlohmann::json;
 using test::ProgramResult;
 using testing::HasSubstr;
 
-const std::vector<std::string> kCommands{"bake",   "relight", "reference", "compare", "info",
-                                         "verify", "export",  "light",     "demo",    "bench"};
+const std::vector<std::string> kCommands{"bake",   "relight", "reference", "compare", "info", "verify",
+                                         "export", "light",   "rtt",       "figures", "demo", "bench"};
 const std::set<std::string> kStored{"mesh", "direct", "transfer"};
 
 class Commands : public testing::Test {
@@ -73,6 +73,42 @@ TEST_F(Commands, BakeListsEverySetting) {
   for (const char* path :
        {"objects[].mesh.path", "objects[].material.albedo", "transfer.bounces", "lights[].rotation"})
     EXPECT_THAT(help, HasSubstr(path));
+}
+
+TEST_F(Commands, APatchIsBakedLookedAtAndExported) {
+  bakeSmall("cloth.prt", {"--set", "patch.model=weave", "--set", "patch.yarns=2", "--set", "rtt.texels=8",
+                          "--set", "rtt.views=3", "--set", "rtt.rays=64", "--set", "patch.warp=1,0.5,0.5"});
+  const json info = prtJson({"info", "cloth.prt"});
+  std::set<std::string> stages;
+  for (const json& product : info["products"]) stages.insert(product["stage"].get<std::string>());
+  EXPECT_TRUE(stages.contains("patch") && stages.contains("rtt"));
+  prtJson({"export", "cloth.prt", "--npy", "arrays"});
+  const Array rtt = readNpy(folder / "arrays/rtt.npy");
+  EXPECT_EQ(rtt.shape, (std::vector<std::int64_t>{8, 8, 3, 3, 25, 3}));
+  const json looked = prtJson({"rtt", "cloth.prt", "--view", "30,50", "--light", "circle:1,1,0:40:3", "-o",
+                               "cloth.exr", "--zoom", "2", "--errors"});
+  EXPECT_EQ(looked["errors"]["terms"][0]["terms"], 1);
+  const Image picture = readImage(folder / "cloth.exr");
+  EXPECT_EQ(picture.width, 16);
+  EXPECT_GT(picture.rgb(8, 8).x, 0);
+  // One-sided settings are left out of everything else.
+  bakeSmall("plain.prt");
+  EXPECT_NE(prt({"rtt", "plain.prt", "-o", "a.png"}).status, 0);
+  EXPECT_THAT(prt({"rtt", "plain.prt", "-o", "a.png"}).err, HasSubstr("holds no radiance transfer texture"));
+  EXPECT_EQ(prt({"rtt", "cloth.prt"}).status, 2);
+  EXPECT_EQ(prt({"rtt", "cloth.prt", "-o", "a.png", "--view", "0,-10"}).status, 2);
+  EXPECT_EQ(prt({"figures", "biscale-44", "-o", "f"}).status, 2);
+  EXPECT_THAT(prt({"figures", "biscale-44", "-o", "f"}).err, HasSubstr("did you mean biscale-4"));
+}
+
+TEST_F(Commands, APatchAloneIsEnough) {
+  const ProgramResult baked = prt({"bake", "builtin:plane", "-o", "flat.prt", "--stage", "rtt", "--set",
+                                   "patch.model=flat", "--set", "rtt.texels=4", "--set", "rtt.views=2"});
+  ASSERT_EQ(baked.status, 0) << baked.err;
+  prtJson({"export", "flat.prt", "--npy", "arrays"});
+  const Array rtt = readNpy(folder / "arrays/rtt.npy");
+  EXPECT_EQ(rtt.shape, (std::vector<std::int64_t>{4, 4, 2, 2, 25}));
+  EXPECT_NEAR(rtt.as<float>()[0], 0.5f * 0.282095f, 1e-5);
 }
 
 TEST_F(Commands, TheRecipePageIsUpToDate) {
