@@ -58,6 +58,43 @@ bool segmentsMeet(const DVec2& a, const DVec2& b, const DVec2& c, const DVec2& d
          (cda == 0 && onSegment(a, c, d)) || (cdb == 0 && onSegment(b, c, d));
 }
 
+/// Calls found(s, t) for pairs of sides that meet, until it returns false. A pair may come twice.
+template <class Found>
+void meetingSides(std::span<const DVec2> polygon, const Found& found) {
+  const std::size_t n = polygon.size();
+  if (n < 4) return;
+  DVec2 low = polygon[0], high = polygon[0];
+  double total = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    low = min(low, polygon[i]), high = max(high, polygon[i]);
+    total += glm::distance(polygon[i], polygon[(i + 1) % n]);
+  }
+  // Sides are sorted into square cells; only sides of one cell are compared.
+  const double span = std::max({high.x - low.x, high.y - low.y, 1e-300});
+  const double cell = std::max(1.5 * total / double(n), span / 4096);
+  const auto cellOf = [&](double value) { return std::uint64_t(std::max(0.0, value / cell)); };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> entries;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const DVec2 a = polygon[i] - low, b = polygon[(i + 1) % n] - low;
+    const DVec2 from = min(a, b), to = max(a, b);
+    for (std::uint64_t y = cellOf(from.y); y <= cellOf(to.y); ++y)
+      for (std::uint64_t x = cellOf(from.x); x <= cellOf(to.x); ++x) entries.push_back({(y << 32) | x, i});
+  }
+  std::sort(entries.begin(), entries.end());
+  for (std::size_t first = 0; first < entries.size();) {
+    std::size_t last = first;
+    while (last < entries.size() && entries[last].first == entries[first].first) ++last;
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t j = i + 1; j < last; ++j) {
+        const std::size_t s = entries[i].second, t = entries[j].second;
+        if (t == s + 1 || (s == 0 && t == n - 1)) continue;
+        if (segmentsMeet(polygon[s], polygon[(s + 1) % n], polygon[t], polygon[(t + 1) % n]) && !found(s, t))
+          return;
+      }
+    first = last;
+  }
+}
+
 }  // namespace
 
 std::vector<DVec2> polygonOnCircle(std::span<const double> sides) {
@@ -155,38 +192,24 @@ BoundaryPolygon layOnPolygon(std::span<const double> lengths, std::span<const st
 }
 
 bool selfIntersects(std::span<const DVec2> polygon) {
-  const std::size_t n = polygon.size();
-  if (n < 4) return false;
-  DVec2 low = polygon[0], high = polygon[0];
-  double total = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    low = min(low, polygon[i]), high = max(high, polygon[i]);
-    total += glm::distance(polygon[i], polygon[(i + 1) % n]);
-  }
-  // Sides are sorted into square cells; only sides of one cell are compared.
-  const double span = std::max({high.x - low.x, high.y - low.y, 1e-300});
-  const double cell = std::max(1.5 * total / double(n), span / 4096);
-  const auto cellOf = [&](double value) { return std::uint64_t(std::max(0.0, value / cell)); };
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> entries;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const DVec2 a = polygon[i] - low, b = polygon[(i + 1) % n] - low;
-    const DVec2 from = min(a, b), to = max(a, b);
-    for (std::uint64_t y = cellOf(from.y); y <= cellOf(to.y); ++y)
-      for (std::uint64_t x = cellOf(from.x); x <= cellOf(to.x); ++x) entries.push_back({(y << 32) | x, i});
-  }
-  std::sort(entries.begin(), entries.end());
-  for (std::size_t first = 0; first < entries.size();) {
-    std::size_t last = first;
-    while (last < entries.size() && entries[last].first == entries[first].first) ++last;
-    for (std::size_t i = first; i < last; ++i)
-      for (std::size_t j = i + 1; j < last; ++j) {
-        const std::size_t s = entries[i].second, t = entries[j].second;
-        if (t == s + 1 || (s == 0 && t == n - 1)) continue;
-        if (segmentsMeet(polygon[s], polygon[(s + 1) % n], polygon[t], polygon[(t + 1) % n])) return true;
-      }
-    first = last;
-  }
-  return false;
+  bool meets = false;
+  meetingSides(polygon, [&](std::size_t, std::size_t) {
+    meets = true;
+    return false;
+  });
+  return meets;
+}
+
+std::vector<std::uint32_t> crossingSides(std::span<const DVec2> polygon) {
+  std::vector<std::uint32_t> sides;
+  meetingSides(polygon, [&](std::size_t s, std::size_t t) {
+    sides.push_back(std::uint32_t(s));
+    sides.push_back(std::uint32_t(t));
+    return true;
+  });
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return sides;
 }
 
 }  // namespace prt

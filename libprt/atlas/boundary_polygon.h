@@ -39,5 +39,7 @@ BoundaryPolygon layOnPolygon(std::span<const double> lengths, std::span<const st
 /// Whether a closed polygon crosses or touches itself. Neighbouring sides share their end only. Expected
 /// linear time when sides are of similar lengths.
 bool selfIntersects(std::span<const DVec2> polygon);
+/// The sides, rising, that cross or touch others: side i runs from point i to the next.
+std::vector<std::uint32_t> crossingSides(std::span<const DVec2> polygon);
 
 }  // namespace prt

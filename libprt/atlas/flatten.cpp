@@ -67,7 +67,7 @@ void Flattening::setCorners(std::vector<std::uint32_t> corners, Job& job) {
   if (!flippedTriangles(chart_, moved).empty()) moved = bijectiveMap(chart_, boundary_, options_.name, job);
   uv_ = std::move(moved);
   descent_.reset();
-  stepsDone_ = 0;
+  stepsDone_ = smallSteps_ = 0;
 }
 
 bool Flattening::step(Job& job) {
@@ -79,7 +79,10 @@ bool Flattening::step(Job& job) {
   const double before = energy_;
   energy_ = descent_->step(uv_, job);
   ++stepsDone_;
-  return before - energy_ > options_.tolerance * std::max(before - 1, 1e-9);
+  // Far from the end small steps may be an obstacle being passed: only several of them are one.
+  const bool small = !(before - energy_ > options_.tolerance * std::max(before - 1, 1e-9));
+  smallSteps_ = small ? smallSteps_ + 1 : 0;
+  return smallSteps_ < (energy_ > 1.5 ? 5 : 1);
 }
 
 void Flattening::finish(Job& job) {

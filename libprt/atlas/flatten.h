@@ -66,7 +66,7 @@ class Flattening {
   std::optional<SymmetricDirichlet> descent_;
   std::vector<DVec2> uv_;
   double energy_ = 0;
-  int stepsDone_ = 0;
+  int stepsDone_ = 0, smallSteps_ = 0;
 };
 
 /// Called with the map after each step.

@@ -70,6 +70,13 @@ Surface::Surface(const TriMesh& mesh, Job& job) {
   joinEdges(*this, job);
 }
 
+Surface::Surface(std::vector<Vec3> at, std::vector<UVec3> faces, Job& job)
+    : positions(std::move(at)), triangles(std::move(faces)) {
+  for (std::uint32_t v = 0; v < positions.size(); ++v) meshVertex.push_back(v);
+  vertexOfMesh = meshVertex;
+  joinEdges(*this, job);
+}
+
 std::uint32_t Surface::edgeBetween(std::uint32_t a, std::uint32_t b) const {
   for (std::uint32_t i = spokeStart[a]; i < spokeStart[a + 1]; ++i)
     if (across(spokes[i], a) == b) return spokes[i];

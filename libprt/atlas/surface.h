@@ -42,6 +42,8 @@ struct Surface {
   Surface() = default;
   /// The mesh is not kept. Near linear; throws Cancelled.
   Surface(const TriMesh& mesh, Job& job);
+  /// From triangles that are an oriented manifold already.
+  Surface(std::vector<Vec3> at, std::vector<UVec3> faces, Job& job);
 
   std::size_t vertexCount() const { return positions.size(); }
   std::size_t triangleCount() const { return triangles.size(); }

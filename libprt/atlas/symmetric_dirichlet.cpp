@@ -18,6 +18,23 @@ struct Mat2 {
   double a, b, c, d;  // row by row
 };
 
+constexpr double kReach = 0.3;      // of the repulsion, in mean boundary sides
+constexpr double kRepulsion = 0.1;  // its weight
+
+struct Near {
+  double distance, t;  // t along the side
+  DVec2 normal;        // from the side to the point
+};
+
+Near distanceOf(const DVec2& p, const DVec2& a, const DVec2& b) {
+  const DVec2 along = b - a;
+  const double length2 = dot(along, along);
+  const double t = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  const DVec2 d = p - (a + along * t);
+  const double distance = glm::length(d);
+  return {distance, t, distance > 0 ? d / distance : DVec2(0)};
+}
+
 Mat2 jacobian(const DVec2 gradients[3], const DVec2& u0, const DVec2& u1, const DVec2& u2) {
   return {u0.x * gradients[0].x + u1.x * gradients[1].x + u2.x * gradients[2].x,
           u0.x * gradients[0].y + u1.x * gradients[1].y + u2.x * gradients[2].y,
@@ -187,6 +204,77 @@ bool SymmetricDirichlet::boundaryIsSimple(const std::vector<DVec2>& uv) const {
   return !selfIntersects(boundary);
 }
 
+std::vector<SymmetricDirichlet::Contact> SymmetricDirichlet::contacts(const std::vector<DVec2>& uv) const {
+  // Sides into square cells as wide as the reach, widened by it; then each vertex looks into its cell.
+  const std::size_t n = chart_.rim.size();
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> cells;
+  DVec2 low = uv[chart_.rim[0]];
+  double longest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    low = min(low, uv[chart_.rim[i]]);
+    longest = std::max(longest, glm::distance(uv[chart_.rim[i]], uv[chart_.rim[(i + 1) % n]]));
+  }
+  low -= DVec2(reach_);
+  const double cell = std::max(4 * reach_, longest / 16);
+  const auto cellOf = [&](double value) { return std::uint64_t(std::max(0.0, value / cell)); };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const DVec2 a = uv[chart_.rim[i]] - low, b = uv[chart_.rim[(i + 1) % n]] - low;
+    const DVec2 from = min(a, b) - DVec2(reach_), to = max(a, b) + DVec2(reach_);
+    for (std::uint64_t y = cellOf(from.y); y <= cellOf(to.y); ++y)
+      for (std::uint64_t x = cellOf(from.x); x <= cellOf(to.x); ++x) cells.push_back({(y << 32) | x, i});
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<Contact> near;
+  for (std::uint32_t v = 0; v < n; ++v) {
+    const DVec2 p = uv[chart_.rim[v]];
+    const std::uint64_t key = (cellOf(p.y - low.y) << 32) | cellOf(p.x - low.x);
+    for (auto at = std::lower_bound(cells.begin(), cells.end(), std::pair(key, 0u));
+         at != cells.end() && at->first == key; ++at) {
+      const std::size_t i = at->second, j = (i + 1) % n;
+      // Neighbours along the boundary are near by nature.
+      const std::size_t ahead = (v + n - j) % n, behind = (i + n - v) % n;
+      if (std::min(ahead, behind) < 2 || v == i || v == j) continue;
+      const Contact contact{chart_.rim[v], chart_.rim[i], chart_.rim[j]};
+      if (distanceOf(p, uv[contact.from], uv[contact.to]).distance < reach_) near.push_back(contact);
+    }
+  }
+  return near;
+}
+
+double SymmetricDirichlet::repulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near) const {
+  double sum = 0;
+  for (const Contact& c : near) {
+    const double d = distanceOf(uv[c.vertex], uv[c.from], uv[c.to]).distance;
+    if (d >= reach_) continue;
+    if (!(d > 0)) return kInfinite;
+    const double x = reach_ / d - 1;
+    sum += x * x;
+  }
+  return sum * kRepulsion * reach_ * reach_ / restArea_;
+}
+
+void SymmetricDirichlet::assembleRepulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near,
+                                           std::vector<std::array<double, 2>>& descent) {
+  const double weight = 4 * kRepulsion * reach_ * reach_ / restArea_;  // energies are over 4 here
+  for (const Contact& c : near) {
+    const Near at = distanceOf(uv[c.vertex], uv[c.from], uv[c.to]);
+    const double d = std::max(at.distance, 1e-6 * reach_), x = reach_ / d - 1;
+    const double first = -2 * x * reach_ / (d * d);
+    const double second = 2 * reach_ * reach_ / (d * d * d * d) + 4 * x * reach_ / (d * d * d);
+    // The three points' shares of the gradient; three times their own blocks bound the whole Hessian.
+    const std::pair<std::uint32_t, double> shares[3] = {{c.vertex, 1.0}, {c.from, at.t - 1}, {c.to, -at.t}};
+    for (const auto& [vertex, share] : shares) {
+      const std::uint32_t u = unknown_[vertex];
+      if (u == kNowhere) continue;
+      descent[u][0] -= weight * first * share * at.normal.x;
+      descent[u][1] -= weight * first * share * at.normal.y;
+      const double h = 3 * weight * second * share * share;
+      solver_->addDiagonal(u, {h * at.normal.x * at.normal.x, h * at.normal.x * at.normal.y,
+                               h * at.normal.x * at.normal.y, h * at.normal.y * at.normal.y});
+    }
+  }
+}
+
 double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   const std::size_t unknowns = std::size_t(
       std::count_if(unknown_.begin(), unknown_.end(), [](std::uint32_t u) { return u != kNowhere; }));
@@ -195,6 +283,16 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   if (unknowns == 0) return before;
   std::vector<std::array<double, 2>> solution(unknowns, {0.0, 0.0});
   assemble(uv, solution);
+  std::vector<Contact> near;
+  if (!fixedBoundary_) {
+    double length = 0;
+    for (std::size_t i = 0; i < chart_.rim.size(); ++i)
+      length += glm::distance(uv[chart_.rim[i]], uv[chart_.rim[(i + 1) % chart_.rim.size()]]);
+    reach_ = kReach * length / double(chart_.rim.size());
+    near = contacts(uv);
+    assembleRepulsion(uv, near, solution);
+  }
+  const double repelled = repulsion(uv, near);
   job.checkCancelled();
   const std::vector<std::array<double, 2>> descent = solution;
   double trace = 0;
@@ -222,7 +320,9 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   for (int i = 0; i < kHalvings; ++i, length *= 0.5) {
     for (std::size_t v = 0; v < uv.size(); ++v) next[v] = uv[v] + direction[v] * length;
     const double after = energy(next);
-    if (!(after < before - 1e-4 * 0.25 * length * std::max(decrease, 0.0))) continue;
+    const double least = before + repelled - 1e-4 * 0.25 * length * std::max(decrease, 0.0);
+    if (!(after < least)) continue;
+    if (!fixedBoundary_ && !(after + repulsion(next, contacts(next)) < least)) continue;
     if (!flippedTriangles(chart_, next).empty() || (!fixedBoundary_ && !boundaryIsSimple(next))) continue;
     uv = std::move(next);
     energy_ = after;

@@ -3,7 +3,8 @@
 // surface of (s1^2 + s2^2 + s1^-2 + s2^-2) / 4 with the singular values s of the map, 1 for an isometry and
 // infinite for a triangle about to flip. Newton's method with the exact eigenvalues of each triangle's
 // Hessian, negative ones left out (Smith, de Goes and Kim 2019); steps are cut before the first flip, and
-// with a free boundary before it meets itself: the map stays injective.
+// with a free boundary before it meets itself: the map stays injective. So that a boundary slides along
+// itself rather than sticks, sides that come near each other repel (as in Smith and Schaefer 2015).
 
 #include "libprt/atlas/flat_chart.h"
 #include "libprt/atlas/sparse_cholesky.h"
@@ -29,6 +30,13 @@ class SymmetricDirichlet {
     DVec2 gradients[3];  ///< of the linear functions that are 1 at a corner and 0 at the others
     double area;
   };
+  struct Contact {  ///< a boundary vertex near a boundary side
+    std::uint32_t vertex, from, to;
+  };
+  std::vector<Contact> contacts(const std::vector<DVec2>& uv) const;
+  double repulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near) const;
+  void assembleRepulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near,
+                         std::vector<std::array<double, 2>>& descent);
   void assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent);
   double largestStep(const std::vector<DVec2>& uv, const std::vector<DVec2>& direction) const;
   bool boundaryIsSimple(const std::vector<DVec2>& uv) const;
@@ -40,7 +48,8 @@ class SymmetricDirichlet {
   std::vector<std::uint32_t> unknown_;  // [n]
   std::vector<std::uint32_t> slot_;     // [e] edge of the solver, kNowhere where an end is fixed
   std::unique_ptr<SparseCholesky<2>> solver_;
-  double energy_ = -1;  // of the last step's result
+  double reach_ = 0;    // of the repulsion
+  double energy_ = -1;  // of the last step's result, without repulsion
 };
 
 }  // namespace prt

@@ -1,0 +1,46 @@
+#pragma once
+// Bitmaps for packing. Internal to it.
+
+#include "libprt/atlas/surface.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Cells that an outline covers or comes near to, as runs per row.
+struct PackMask {
+  struct Run {
+    int begin, end;  // columns
+  };
+  int width = 0, height = 0;
+  DVec2 origin{0};                     ///< of the outline's coordinates in the mask's, in cells
+  std::vector<std::vector<Run>> rows;  ///< [height]
+};
+
+/// All cells that lie within `margin` cells of the polygon (scaled to cells already).
+PackMask makeMask(std::span<const DVec2> polygon, double margin);
+
+/// A square of cells, taken or free, with what is needed to find all free places of a mask at once: each row
+/// also dilated to the left by powers of two, so that a run of any length is tested with two shifts.
+class PackGrid {
+ public:
+  explicit PackGrid(int size);
+
+  int size() const { return size_; }
+  void place(const PackMask& mask, int x, int y);
+  /// The free place whose upper end is lowest, then leftmost, with y + height <= limit; false when none is.
+  bool find(const PackMask& mask, int limit, int& x, int& y) const;
+
+ private:
+  const std::uint64_t* row(int level, int y) const {
+    return bits_.data() + (std::size_t(level) * std::size_t(size_) + std::size_t(y)) * std::size_t(words_);
+  }
+  void redo(int y);
+
+  int size_, words_, levels_;
+  std::vector<std::uint64_t> bits_;
+};
+
+}  // namespace prt
