@@ -68,7 +68,7 @@ HeightGrid heightsFromImage(const Image& image, float depth, int mostSide) {
   return grid;
 }
 
-Patch heightField(const HeightGrid& grid, const Rgb& albedo) {
+Patch heightField(const HeightGrid& grid, const Rgb& albedo, Job* job) {
   if (grid.columns < 2 || grid.rows < 2 || grid.columns > kMaxHeightGrid || grid.rows > kMaxHeightGrid)
     throw ValueError("cannot make a surface of " + std::to_string(grid.columns) + " x " +
                          std::to_string(grid.rows) + " heights",
@@ -78,7 +78,7 @@ Patch heightField(const HeightGrid& grid, const Rgb& albedo) {
     for (int i = 0; i <= grid.columns; ++i)
       mesh.positions.emplace_back(float(i) / float(grid.columns), float(j) / float(grid.rows), grid.at(i, j));
   appendCells(mesh, 0, grid.columns, grid.rows);
-  return makePatch(std::move(mesh), {albedo});
+  return makePatch(std::move(mesh), {albedo}, job);
 }
 
 Patch flatPatch(const Rgb& albedo) {

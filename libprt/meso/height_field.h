@@ -20,7 +20,7 @@ struct HeightGrid {
 };
 
 /// Most vertices along a side.
-inline constexpr int kMaxHeightGrid = 1024;
+inline constexpr int kMaxHeightGrid = 512;
 
 /// Heights of a function of (u, v), at `side` x `side` places.
 HeightGrid sampleHeights(int side, const std::function<float(const Vec2& uv)>& height);
@@ -31,7 +31,7 @@ HeightGrid sampleHeights(int side, const std::function<float(const Vec2& uv)>& h
 HeightGrid heightsFromImage(const Image& image, float depth, int mostSide = 256);
 
 /// The patch: a triangulated grid with smooth normals.
-Patch heightField(const HeightGrid& grid, const Rgb& albedo);
+Patch heightField(const HeightGrid& grid, const Rgb& albedo, Job* job = nullptr);
 
 /// A flat patch at height 0; what is on it is up to its textures.
 Patch flatPatch(const Rgb& albedo);

@@ -21,7 +21,7 @@ double NeumannTail::product(std::size_t i, std::size_t j, std::size_t channel) c
   return sum;
 }
 
-void NeumannTail::extrapolate(std::span<const float> albedo, SampleRows& total) const {
+void NeumannTail::extrapolate(std::span<const float> albedo, SampleRows& total, Job& job) const {
   const std::size_t n = terms_.size(), channels = albedo.size();
   if (n < 2) return;
   for (std::size_t c = 0; c < channels; ++c) {
@@ -30,10 +30,12 @@ void NeumannTail::extrapolate(std::span<const float> albedo, SampleRows& total) 
     for (std::size_t i = 0; i < n; ++i) power[i] = std::pow(double(albedo[c]), double(i) - double(n - 1));
     if (!(albedo[c] > 0)) continue;
     Eigen::MatrixXd gram(n, n);
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
+      job.checkCancelled();
       for (std::size_t j = 0; j <= i; ++j)
         gram(Eigen::Index(i), Eigen::Index(j)) = gram(Eigen::Index(j), Eigen::Index(i)) =
             power[i] * power[j] * product(i, j, from);
+    }
     const double trace = gram.trace();
     if (!(trace > 0)) continue;
     gram.diagonal().array() += 1e-11 * trace;  // rounding of the terms

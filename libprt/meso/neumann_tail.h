@@ -20,7 +20,7 @@ class NeumannTail {
 
   /// total += the rest of the series. Term k of the series is the k-th added times albedo[c]^k; `total` holds
   /// the sum of the terms so far, with as many channels as there are albedos.
-  void extrapolate(std::span<const float> albedo, SampleRows& total) const;
+  void extrapolate(std::span<const float> albedo, SampleRows& total, Job& job) const;
 
  private:
   double product(std::size_t i, std::size_t j, std::size_t channel) const;

@@ -76,14 +76,14 @@ Rgb Patch::albedoAt(std::uint32_t triangle, const Vec2& b) const {
   return albedoTexture ? colour * lookUp(albedoTexture, Vec2(positionAt(triangle, b))) : colour;
 }
 
-Patch makePatch(TriMesh mesh, std::vector<Rgb> albedo) {
+Patch makePatch(TriMesh mesh, std::vector<Rgb> albedo, Job* job) {
   checkMesh(mesh);
   Patch patch;
   if (albedo.size() == 1) albedo.resize(mesh.vertexCount(), albedo.front());
   if (albedo.size() != mesh.vertexCount())
     throw ValueError("there are not as many colours as vertices", "patch", "give one, or one per vertex");
   patch.albedo = std::move(albedo);
-  const std::vector<std::uint32_t> places = torusPlaces(mesh.positions);
+  const std::vector<std::uint32_t> places = torusPlaces(mesh.positions, job);
   if (mesh.normals.empty()) mesh.normals = torusNormals(mesh, places);
   patch.twin = torusTwins(mesh.normals, places);
   patch.mesh = std::move(mesh);

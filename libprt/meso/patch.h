@@ -7,6 +7,7 @@
 // away. So the mesh alone is a picture of the patch, and copies of it side by side close up.
 
 #include "libprt/core/image.h"
+#include "libprt/core/job.h"
 #include "libprt/mesh/mesh.h"
 
 #include <cstdint>
@@ -47,8 +48,9 @@ struct Patch {
 /// Makes a patch of triangles that repeat with period 1 along x and y: finds twins, makes smooth normals
 /// where `mesh` has none, measures the depth. `albedo` holds one colour per vertex, or one for all. Throws
 /// GeometryError when there is no triangle, something is not finite, or the surface sticks out of the unit
-/// cell by more than half a period.
-Patch makePatch(TriMesh mesh, std::vector<Rgb> albedo);
+/// cell by more than half a period. A job, when
+/// given, can cancel it.
+Patch makePatch(TriMesh mesh, std::vector<Rgb> albedo, Job* job = nullptr);
 
 /// Adds an opaque plane `gap` below the surface, as a grid of cells x cells: what shows through gaps.
 void addBacking(Patch& patch, float gap, int cells, const Rgb& albedo);

@@ -30,18 +30,18 @@ PatchTexture textureOf(const std::string& path, const std::optional<Image>& read
   return std::make_shared<const Image>(std::move(image));
 }
 
-Patch buildHeightField(const PatchOptions& o, const PatchSources& sources) {
+Patch buildHeightField(const PatchOptions& o, const PatchSources& sources, Job& job) {
   if (builtin(o.heightmap)) {
     HeightOptions height;
     height.name = o.heightmap.substr(kBuiltin.size());
     height.depth = o.depth, height.count = o.count, height.grid = o.grid;
     height.seed = std::uint32_t(o.seed);
-    return heightField(generateHeights(height), o.albedo);
+    return heightField(generateHeights(height), o.albedo, &job);
   }
-  return heightField(heightsFromImage(sources.height.value_or(Image()), o.depth, o.grid), o.albedo);
+  return heightField(heightsFromImage(sources.height.value_or(Image()), o.depth, o.grid), o.albedo, &job);
 }
 
-Patch buildWeave(const PatchOptions& o) {
+Patch buildWeave(const PatchOptions& o, Job& job) {
   WeaveOptions options;
   options.yarns = o.yarns, options.radius = o.radius, options.depth = o.depth,
   options.amplitude = o.amplitude;
@@ -49,7 +49,7 @@ Patch buildWeave(const PatchOptions& o) {
   options.warp = o.albedo * o.warp;
   // Many thin yarns need fewer triangles each.
   if (o.yarns > 8) options.sides = 16, options.along = 10;
-  return weave(options);
+  return weave(options, &job);
 }
 
 /// Whether a ray straight down gets through somewhere.
@@ -84,7 +84,7 @@ Patch patchFromMesh(const TriMesh& mesh, float period, const Rgb& albedo, Job& j
   for (const Vec3& p : mesh.positions)
     patch.positions.push_back(Vec3(p.x - box.low.x, box.high.z - p.z, p.y - box.low.y) / width);
   for (const Vec3& n : mesh.normals) patch.normals.emplace_back(n.x, -n.z, n.y);
-  Patch out = makePatch(std::move(patch), {albedo});
+  Patch out = makePatch(std::move(patch), {albedo}, &job);
   if (hasGaps(out, job)) addBacking(out, std::max(0.02f * out.depth(), 1e-3f), 64, albedo);
   return out;
 }
@@ -101,10 +101,10 @@ Patch buildPatch(const PatchOptions& o, const PatchSources& sources, Job& job) {
       patch = flatPatch(o.albedo);
       break;
     case PatchModel::HeightField:
-      patch = buildHeightField(o, sources);
+      patch = buildHeightField(o, sources, job);
       break;
     case PatchModel::Weave:
-      patch = buildWeave(o);
+      patch = buildWeave(o, job);
       break;
     case PatchModel::Mesh:
       if (!sources.mesh) throw ValueError("is not set", "patch.mesh", "name the mesh of one period");

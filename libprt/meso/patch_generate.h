@@ -14,7 +14,7 @@ struct HeightOptions {
   float depth = 0.1f;           ///< lowest to highest point, relative to the patch width; 0..2
   int count = 0;                ///< features a side, 1..64; 0 = the generator's own
   std::uint32_t seed = 1;       ///< of noise
-  int grid = 128;               ///< vertices a side, 8..1024
+  int grid = 128;               ///< vertices a side, 8..512
 };
 
 /// "bins", "holes", "ripples", "scales", "stucco".

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <set>
+#include <unordered_map>
 
 namespace prt {
 namespace {
@@ -22,19 +23,34 @@ Scene sceneOf(const TriMesh& mesh) {
 /// has all its faces around it.
 class Padding {
  public:
-  explicit Padding(const TriMesh& mesh) : mesh_(mesh), padded_(mesh), places_(torusPlaces(mesh.positions)) {}
+  Padding(const TriMesh& mesh, Job& job)
+      : mesh_(mesh), padded_(mesh), places_(torusPlaces(mesh.positions, &job)) {}
 
   TriMesh run() {
-    std::vector<std::vector<std::uint32_t>> trianglesAt(mesh_.vertexCount()), verticesAt(mesh_.vertexCount());
-    for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t)
-      for (int k = 0; k < 3; ++k) trianglesAt[mesh_.triangles[t][k]].push_back(t);
-    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v) verticesAt[places_[v]].push_back(v);
+    // Only places with more than one vertex matter: the seams.
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> verticesAt, trianglesAt;
     for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v)
-      for (const std::uint32_t other : verticesAt[places_[v]]) {
+      if (places_[v] != v) verticesAt[places_[v]].push_back(v);
+    for (auto& [place, vertices] : verticesAt) {
+      vertices.insert(vertices.begin(), place);
+      for (const std::uint32_t v : vertices) {
+        trianglesAt[v];
+        cells_.try_emplace({place, periods(v, place, 0), periods(v, place, 1)}, v);
+      }
+    }
+    for (std::uint32_t t = 0; t < mesh_.triangleCount(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (const auto found = trianglesAt.find(mesh_.triangles[t][k]); found != trianglesAt.end())
+          found->second.push_back(t);
+    for (std::uint32_t v = 0; v < mesh_.vertexCount(); ++v) {
+      const auto group = verticesAt.find(places_[v]);
+      if (group == verticesAt.end()) continue;
+      for (const std::uint32_t other : group->second) {
         const int x = periods(v, other, 0), y = periods(v, other, 1);
         if (x == 0 && y == 0) continue;
-        for (const std::uint32_t t : trianglesAt[other]) addCopy(t, x, y);
+        for (const std::uint32_t t : trianglesAt.at(other)) addCopy(t, x, y);
       }
+    }
     return std::move(padded_);
   }
 
@@ -60,9 +76,6 @@ class Padding {
 
   /// Exactly the position of a vertex that is there already, if one is: samples look for equal ones.
   Vec3 position(std::uint32_t v, int x, int y) {
-    if (cells_.empty())
-      for (std::uint32_t w = 0; w < mesh_.vertexCount(); ++w)
-        cells_.try_emplace({places_[w], periods(w, places_[w], 0), periods(w, places_[w], 1)}, w);
     const auto found =
         cells_.find({places_[v], periods(v, places_[v], 0) + x, periods(v, places_[v], 1) + y});
     if (found != cells_.end()) return mesh_.positions[found->second];
@@ -89,7 +102,7 @@ PatchScene makePatchScene(std::shared_ptr<const Patch> patch, Job& job) {
     if (patch->twin[v] == v) number[v] = std::uint32_t(firsts.size()), firsts.push_back(v);
   for (const std::uint32_t twin : patch->twin) out.sampleOf.push_back(number[twin]);
   out.samples = std::make_shared<SampleSet>(
-      someSamples(samplesAtVertices(sceneOf(Padding(patch->mesh).run())), firsts));
+      someSamples(samplesAtVertices(sceneOf(Padding(patch->mesh, job).run()), &job), firsts));
   job.checkCancelled();
   out.patch = std::move(patch);
   return out;

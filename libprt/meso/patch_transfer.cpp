@@ -107,7 +107,7 @@ class Chain {
     }
     if (settings.bounces >= kAllBounces) {
       const Rgb common = colours_.uniform ? colours_.albedo.front() : Rgb(1);
-      tail.extrapolate(std::span(&common.x, std::size_t(channels)), total);
+      tail.extrapolate(std::span(&common.x, std::size_t(channels)), total, job);
     }
     return total;
   }

@@ -31,18 +31,24 @@ constexpr std::int64_t kCells = 50'000;  // per period
 
 }  // namespace
 
-std::vector<std::uint32_t> torusPlaces(std::span<const Vec3> positions) {
+std::vector<std::uint32_t> torusPlaces(std::span<const Vec3> positions, Job* job) {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> firsts;
   firsts.reserve(positions.size());
   std::vector<std::uint32_t> place(positions.size());
   const auto wrap = [](std::int64_t i) { return (i % kCells + kCells) % kCells; };
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
+    if (job && v % 4096 == 0) job->checkCancelled();
     const Vec3& p = positions[v];
-    const auto at = [](float x) { return std::int64_t(std::floor(double(x) * double(kCells))); };
-    const Cell own{at(p.x), at(p.y), at(p.z)};
+    // Cells are two tolerances wide, so equals lie in the point's cell or in the next one on its nearer side.
+    std::int64_t own[3], side[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = double(p[axis]) * double(kCells), low = std::floor(x);
+      own[axis] = std::int64_t(low), side[axis] = x - low < 0.5 ? -1 : 1;
+    }
     place[v] = v;
-    for (int n = 0; n < 27 && place[v] == v; ++n) {
-      const Cell cell{wrap(own.x + n % 3 - 1), wrap(own.y + n / 3 % 3 - 1), own.z + n / 9 - 1};
+    for (int n = 0; n < 8 && place[v] == v; ++n) {
+      const Cell cell{wrap(own[0] + (n & 1 ? side[0] : 0)), wrap(own[1] + (n & 2 ? side[1] : 0)),
+                      own[2] + (n & 4 ? side[2] : 0)};
       const auto found = firsts.find(cell);
       if (found == firsts.end()) continue;
       for (const std::uint32_t w : found->second) {
@@ -52,7 +58,7 @@ std::vector<std::uint32_t> torusPlaces(std::span<const Vec3> positions) {
         break;
       }
     }
-    if (place[v] == v) firsts[{wrap(own.x), wrap(own.y), own.z}].push_back(v);
+    if (place[v] == v) firsts[{wrap(own[0]), wrap(own[1]), own[2]}].push_back(v);
   }
   return place;
 }

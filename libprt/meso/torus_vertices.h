@@ -1,6 +1,7 @@
 #pragma once
 // Vertices of a surface that repeats with period 1 along x and y: which of them are one. Internal to meso.
 
+#include "libprt/core/job.h"
 #include "libprt/mesh/mesh.h"
 
 #include <cstdint>
@@ -11,8 +12,9 @@
 
 namespace prt {
 
-/// [V] for each vertex the first one at the same point of the torus (to 1e-5 of a period).
-std::vector<std::uint32_t> torusPlaces(std::span<const Vec3> positions);
+/// [V] for each vertex the first one at the same point of the torus (to 1e-5 of a period). A job, when given,
+/// can cancel it.
+std::vector<std::uint32_t> torusPlaces(std::span<const Vec3> positions, Job* job = nullptr);
 
 /// [V] the first vertex at the same place with the same normal.
 std::vector<std::uint32_t> torusTwins(std::span<const Vec3> normals, std::span<const std::uint32_t> places);

@@ -77,7 +77,7 @@ WeaveShape weaveShape(const WeaveOptions& options) {
   return {tube, tube * ratio};
 }
 
-Patch weave(const WeaveOptions& options) {
+Patch weave(const WeaveOptions& options, Job* job) {
   check(options);
   const WeaveShape shape = weaveShape(options);
   TriMesh mesh;
@@ -89,7 +89,7 @@ Patch weave(const WeaveOptions& options) {
     appendYarn(mesh, options, shape, place, -sign, true);
     albedo.resize(mesh.vertexCount(), options.warp);
   }
-  Patch patch = makePatch(std::move(mesh), std::move(albedo));
+  Patch patch = makePatch(std::move(mesh), std::move(albedo), job);
   addBacking(patch, float(0.2 * shape.tube), 64, options.backing);
   return patch;
 }

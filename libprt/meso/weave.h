@@ -23,7 +23,7 @@ struct WeaveOptions {
 };
 
 /// Throws ValueError when an option is out of range.
-Patch weave(const WeaveOptions& options);
+Patch weave(const WeaveOptions& options, Job* job = nullptr);
 
 /// Half heights of tube and wave: r and A, with 2 (A + r) = depth. Yarns of neighbouring directions do not
 /// meet when A cos(pi radius t) >= r sqrt(1 - t^2) for every t in 0..1 (ALGORITHMS 6.3 states it for t = 0

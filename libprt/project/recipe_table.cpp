@@ -543,7 +543,7 @@ const std::vector<Row<PatchOptions>> kPatch{
      ParameterType::Integer,
      "vertices",
      8,
-     1024,
+     512,
      {},
      kCostPatch,
      "heightfield: vertices a side, at most; rays grow with the square."},

@@ -229,7 +229,7 @@ SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> i
   return some;
 }
 
-SampleSet samplesAtVertices(const Scene& scene) {
+SampleSet samplesAtVertices(const Scene& scene, Job* job) {
   const TriMesh& mesh = scene.mesh;
   SampleSet set;
   resize(set, mesh.vertexCount());
@@ -240,9 +240,11 @@ SampleSet samplesAtVertices(const Scene& scene) {
     if (!set.back.empty() && set.back[v] != kNone)
       setFree(set, set.back[v], mesh.positions[v], -mesh.normals[v]);
   }
+  if (job) job->checkCancelled();
   const std::vector<Corner> corners = cornersByPosition(mesh);
   std::vector<std::uint32_t> vertices;
   for (std::size_t begin = 0, end = 0; begin < corners.size(); begin = end) {
+    if (job && begin % 64 == 0) job->checkCancelled();
     const Vec3& p = mesh.positions[corners[begin].vertex];
     while (end < corners.size() && mesh.positions[corners[end].vertex] == p) ++end;
     const std::vector<Wedge> wedges = wedgesAt(mesh, std::span(corners).subspan(begin, end - begin));

@@ -2,6 +2,7 @@
 // Where transfer is computed: vertices, texels or free points, all seen as points on the surface with
 // normals. "Nothing bakes over vertices": every baker takes a SampleSet.
 
+#include "libprt/core/job.h"
 #include "libprt/core/math.h"
 #include "libprt/transport/scene.h"
 
@@ -47,7 +48,9 @@ SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> i
 /// all faces at its position that rise above them (the other side of a concave crease, touching objects).
 /// In a corner of flat faces what is visible is the same at any distance from the corner, so the error is
 /// that of the faces' curvature over 1e-3 of an edge.
-SampleSet samplesAtVertices(const Scene& scene);
+///
+/// A job, when given, can cancel it.
+SampleSet samplesAtVertices(const Scene& scene, Job* job = nullptr);
 
 /// `count` points spread over the surface, density proportional to area, stratified; the same seed
 /// gives the same points. Origins are moved off along the face's normal; the shading normal is the

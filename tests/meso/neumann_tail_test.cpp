@@ -35,7 +35,10 @@ double rmsOfRest(double albedo, bool extrapolated) {
   }
   const float a = float(albedo);
   const float colour[3] = {a, a, a};
-  if (extrapolated) tail.extrapolate(colour, total);
+  if (extrapolated) {
+    Job job;
+    tail.extrapolate(colour, total, job);
+  }
   double square = 0, size = 0;
   for (std::size_t s = 0; s < 64; ++s)
     for (std::size_t i = 0; i < 9; ++i) {
@@ -62,9 +65,10 @@ TEST(NeumannTail, LeavesAnEndedSeriesAlone) {
   total.values.assign(total.values.size(), 1.0f);
   const SampleRows before = total;
   const float white[3] = {1, 1, 1};
-  tail.extrapolate(white, total);
+  Job job;
+  tail.extrapolate(white, total, job);
   for (int i = 0; i < 5; ++i) tail.add(nothing);
-  tail.extrapolate(white, total);
+  tail.extrapolate(white, total, job);
   EXPECT_EQ(total.values, before.values);
 }
 
