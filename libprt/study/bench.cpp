@@ -24,7 +24,7 @@ const std::vector<Entry>& entries() {
        benchBake,
        7},
       {{"bounces", "three diffuse bounces: time against that of the direct bake"}, benchBounces, 7},
-      {{"transfer", "25x25 matrices times RGB light: time against reading the matrices"}, benchTransfer, 400},
+      {{"transfer", "25x25 matrices times RGB light: time against reading the matrices"}, benchTransfer, 100},
       {{"rtt",
         "radiance transfer texture of the default weave, two bounces: rate against its own rays thrown away"},
        benchRtt,
