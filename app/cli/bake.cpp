@@ -46,6 +46,11 @@ void tell(const Session& session, const BakeSummary& s) {
     session.say(fmt::format(
         "errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %",
         100 * s.floor->interpolation, 100 * s.floor->interpolationError, 100 * s.floor->sampling));
+  if (s.atlas)
+    session.say(
+        fmt::format("atlas: {} charts, L2 stretch {:.4f} (largest {:.2f}), seams {:.2f} roots of the area, "
+                    "{:.1f} % filled",
+                    s.atlas->charts, s.atlas->l2, s.atlas->lInf, s.atlas->seam, 100 * s.atlas->filled));
   if (s.rtt) {
     const BakeSummary::RttFacts& r = *s.rtt;
     session.say(

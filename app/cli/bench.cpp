@@ -10,7 +10,7 @@ namespace prt::cli {
 namespace {
 
 struct Options {
-  std::string name;
+  std::string name, mesh;
   int repetitions = 0;
 };
 
@@ -35,7 +35,11 @@ void requireKnown(const std::string& name) {
 
 void bench(Session& session, const Options& options) {
   requireKnown(options.name);
-  const BenchResult result = runBench(options.name, session.job(), options.repetitions);
+  if (!options.mesh.empty() && options.name != "atlas")
+    throw UsageError("bench " + options.name + " takes no mesh", "--mesh", "use it with bench atlas");
+  const BenchResult result = options.mesh.empty()
+                                 ? runBench(options.name, session.job(), options.repetitions)
+                                 : runAtlasBench(options.mesh, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
   session.say(fmt::format("  ours     {:.4g} {}", result.ours.value, result.ours.unit));
   session.say(fmt::format("  against  {:.4g} {} ({})", result.against.value, result.against.unit,
@@ -61,6 +65,7 @@ void addBench(CLI::App& app, Action& action) {
                    "How often both sides are timed; 0 = as often as is needed")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
+  command->add_option("--mesh", options->mesh, "bench atlas: a mesh file instead of the built-in shapes");
   command->footer(listOfBenches);
   command->callback([options, &action] { action = [options](Session& s) { bench(s, *options); }; });
 }

@@ -3,6 +3,7 @@
 #include "libprt/project/export.h"
 #include "app/cli/session.h"
 #include "libprt/core/log.h"
+#include "libprt/project/atlas_stages.h"
 #include "libprt/project/errors.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/patch_stages.h"
@@ -53,6 +54,14 @@ void exportProject(Session& session, const Options& options) {
     session.result({{"npy", {{"folder", options.npy}, {"files", files}}}});
     return;
   }
+  const auto atlas = pipeline.find(recipe, {"atlas"}).get<AtlasProduct>("atlas");
+  if (atlas && !options.npy.empty() && !pipeline.find(recipe, {"transfer"}).state("transfer")) {
+    const auto scene = pipeline.run(recipe, {"scene"}, session.job()).get<SceneProduct>("scene");
+    const ExportedFiles files = exportAtlas(scene->scene->mesh, *atlas, options.npy, session.job());
+    session.say(fmt::format("wrote the atlas alone to {}", options.npy));
+    session.result({{"npy", {{"folder", options.npy}, {"files", files}}}});
+    return;
+  }
   const BakedScene baked = bakedScene(pipeline, recipe, options.project);
   const auto frames = pipeline.run(recipe, {"frames"}, session.job()).get<FramesProduct>("frames");
   ExportInput input{recipe, baked, frames, makeLightRig(recipe.lights, folder, environments)};
@@ -61,6 +70,7 @@ void exportProject(Session& session, const Options& options) {
   nlohmann::json written;
   if (options.errors) input.errors = estimate(session, input);
   if (rtt) input.rtt = rtt->rtt;
+  if (atlas) input.atlas = atlas->atlas;
   if (patch) input.patch = patch->patch;
   const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
     session.say(fmt::format("wrote {} files to {}", files.size(), where));

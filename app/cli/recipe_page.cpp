@@ -46,6 +46,8 @@ constexpr SectionTitle kSections[] = {
     {"objects[].material", "Material", ""},
     {"lights[]", "Lights", "What shines when pictures are made; no bake depends on it."},
     {"cameras[]", "Cameras", "Views by name. Without any a view that frames everything is used."},
+    {"charts", "Charts", "How the surface is cut and laid flat; see [charts](charts.md)."},
+    {"atlas", "Atlas", "How charts are packed. Made with `--stage atlas`."},
     {"transfer", "Transfer", "What is baked; see [transfer](transfer.md)."},
     {"patch", "Patch", "The fine structure of the surface, one period of it; see [meso scale](meso.md)."},
     {"rtt", "Radiance transfer texture", "How the patch answers to light; baked when there is a patch."},

@@ -13,7 +13,8 @@ namespace prt {
 class Seams {
  public:
   Seams() = default;
-  explicit Seams(const Surface& surface) : marks_(surface.edgeCount(), 0) {}
+  explicit Seams(const Surface& surface) : Seams(surface.edgeCount()) {}
+  explicit Seams(std::size_t edges) : marks_(edges, 0) {}
 
   bool operator[](std::uint32_t edge) const { return marks_[edge] != 0; }
   void set(std::uint32_t edge, bool cut = true) { marks_[edge] = cut; }

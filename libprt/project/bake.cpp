@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/log.h"
+#include "libprt/project/atlas_stages.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
@@ -140,6 +141,10 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
       summary.transfer = describeTransfer(transfer->transfer);
     if (const auto rtt = products.get<RttProduct>("rtt"); rtt && rtt->rtt)
       summary.rtt = describeRtt(*rtt, products.get<PatchProduct>("patch").get());
+    if (const auto atlas = products.get<AtlasProduct>("atlas")) {
+      const AtlasFacts& f = atlas->facts;
+      summary.atlas = {f.charts, f.l2, f.lInf, f.seam, f.filled};
+    }
     if (const auto floor = products.get<FloorProduct>("floor")) summary.floor = floor->floor;
     return summary;
   } catch (...) {
@@ -172,6 +177,12 @@ nlohmann::json toJson(const BakeSummary& s) {
                    {"bands", s.rtt->bands},     {"channels", s.rtt->channels},
                    {"bounces", s.rtt->bounces}, {"depth", s.rtt->depth},
                    {"warning", s.rtt->warning}, {"storage_error", s.rtt->storageError}};
+  if (s.atlas)
+    json["atlas"] = {{"charts", s.atlas->charts},
+                     {"stretch_l2", s.atlas->l2},
+                     {"stretch_max", s.atlas->lInf},
+                     {"seam", s.atlas->seam},
+                     {"filled", s.atlas->filled}};
   if (s.floor)
     json["floor"] = {{"interpolation", s.floor->interpolation},
                      {"standard_error", s.floor->interpolationError},

@@ -47,6 +47,11 @@ struct BakeSummary {
     double storageError = 0;  ///< relative, of rounding to the storage type
   };
   std::optional<TransferFacts> transfer;  ///< when it was made or found
+  struct AtlasText {
+    std::size_t charts = 0;
+    double l2 = 0, lInf = 0, seam = 0, filled = 0;  ///< see AtlasFacts
+  };
+  std::optional<AtlasText> atlas;  ///< when it was made or found
   std::optional<InterpolationFloor> floor;
   struct RttFacts {
     int texels = 0, views = 0, bands = 0, channels = 0, bounces = 0;

@@ -3,6 +3,7 @@
 // Each folder gets a manifest.json that names and describes every file in it; it is written last. Files
 // are replaced one by one, each in one step.
 
+#include "libprt/atlas/atlas.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/meso/patch.h"
 #include "libprt/meso/rtt.h"
@@ -25,6 +26,7 @@ struct ExportInput {
   std::shared_ptr<const ErrorMap> errors = nullptr;  ///< written by exportNpy() when given
   std::shared_ptr<const Rtt> rtt = nullptr;          ///< the same
   std::shared_ptr<const Patch> patch = nullptr;      ///< the same
+  std::shared_ptr<const Atlas> atlas = nullptr;      ///< texture coordinates and geometry images when given
 };
 
 /// Files that were written, relative to the folder.
@@ -32,7 +34,9 @@ using ExportedFiles = std::vector<std::string>;
 
 /// .npy files, little-endian, C order, float32 (indices int32); V vertices of the scene, F faces, k =
 /// bands^2:
-///   positions, normals, tangents [V,3]; faces [F,3]; uv [V',2], uv_faces [F,3] where meshes have them
+///   positions, normals, tangents [V,3]; faces [F,3]; uv [V',2], uv_faces [F,3] where meshes have them;
+///   with an atlas these are its own, and uv_chart [F] int32, geometry_position, geometry_normal,
+///   geometry_tangent [size,size,3], geometry_triangle [size,size] int32, geometry_barycentric [size,size,2]
 ///   transfer [V,k,k] or [V,k,k,3]: row = transferred, column = light, object frame; every form but Diffuse
 ///   transfer_diffuse [V,k] or [V,k,3]: exit radiance of a white Lambert surface per light coefficient
 ///   albedo [V,3]; object [V] int32; specular [O,3] of each object, 0 where it is not glossy
@@ -55,6 +59,7 @@ ExportedFiles exportRtt(const Rtt& rtt, const Patch* patch, const std::filesyste
 /// each camera, 960 x 540.
 ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& folder, Job& job);
 
+/// With an atlas also scene.obj, both with its texture coordinates.
 /// scene.glb: the whole scene as one mesh with attribute _VERTEX (each vertex's row in exportNpy's arrays)
 /// and, as unlit vertex colours, its diffuse exit radiance under the current lights, times 2^exposure,
 /// clamped to 0..1.

@@ -3,6 +3,7 @@
 #include "libprt/core/npy.h"
 #include "libprt/material/glossy_response.h"
 #include "libprt/project/export.h"
+#include "libprt/project/export_atlas.h"
 #include "libprt/project/export_manifest.h"
 #include "libprt/project/lights.h"
 
@@ -176,7 +177,9 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   write("tangents", rows(vertexTangents(scene.mesh, input.frames->frames)),
         "unit tangents, at a right angle to the normals");
   write("faces", indices(scene.mesh.triangles), "corners of each triangle, counter-clockwise from outside");
-  if (!scene.mesh.uv.empty()) {
+  if (input.atlas) {
+    writeAtlasArrays(scene.mesh, *input.atlas, job, write);
+  } else if (!scene.mesh.uv.empty()) {
     write("uv", rows(scene.mesh.uv), "texture coordinates, v up");
     write("uv_faces", indices(scene.mesh.uvTriangles), "corners of each triangle in uv");
   }

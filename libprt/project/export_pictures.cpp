@@ -4,6 +4,7 @@
 #include "libprt/light/projection.h"
 #include "libprt/mesh/mesh_writer.h"
 #include "libprt/project/export.h"
+#include "libprt/project/export_atlas.h"
 #include "libprt/project/export_manifest.h"
 #include "libprt/project/lights.h"
 
@@ -83,7 +84,13 @@ ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& 
   options.name = "scene";
   options.unlit = true;
   options.vertexNumbers = true;
-  writeMesh(folder / "scene.glb", input.baked.geometry->scene->mesh, options, job);
+  const TriMesh& bare = input.baked.geometry->scene->mesh;
+  const TriMesh mesh = input.atlas ? withAtlas(bare, *input.atlas) : bare;
+  writeMesh(folder / "scene.glb", mesh, options, job);
+  if (input.atlas) {
+    writeMesh(folder / "scene.obj", mesh, {.name = "scene"}, job);
+    manifest.addFile("scene.obj", "the same shape with the atlas's texture coordinates");
+  }
   manifest.set("exposure", exposure);
   manifest.setCameras(input.recipe, input.baked.geometry->scene->mesh.bounds());
   manifest.addFile("scene.glb",

@@ -55,6 +55,7 @@ struct ObjectRecipe {
   MeshRecipe mesh;
   TransformRecipe transform;
   Material material;
+  std::string seams;  ///< cuts by hand: chains of the mesh's vertex numbers, "4 8 15;16 23" (atlas/seams.h)
   bool operator==(const ObjectRecipe&) const = default;
 };
 
@@ -119,6 +120,28 @@ struct RttRecipe {
   bool operator==(const RttRecipe&) const = default;
 };
 
+enum class ChartsMode { Auto, Manual, Imported };
+enum class ChartsBoundary { Free, Polygon };
+
+/// How the surface is cut and laid flat (atlas/auto_cut.h, atlas/flatten.h).
+struct ChartsRecipe {
+  ChartsMode mode = ChartsMode::Auto;
+  float stretch = 1.10f;  ///< auto: bound on the L2 stretch of all charts together
+  float creases = 1;      ///< auto: how much seams keep to creases and valleys, 0..1
+  ChartsBoundary boundary = ChartsBoundary::Free;
+  int corners = 8;  ///< of the polygon of each chart
+  bool operator==(const ChartsRecipe&) const = default;
+};
+
+/// How charts are packed (atlas/pack.h).
+struct AtlasRecipe {
+  int size = 2048;
+  int gutter = 1;
+  int turns = 16;
+  std::string placements;  ///< charts that stay where they were put, see parsePlacements()
+  bool operator==(const AtlasRecipe&) const = default;
+};
+
 /// How a picture is made from the products; baking does not read it.
 struct MethodRecipe {
   std::string name = "auto";
@@ -130,6 +153,8 @@ struct Recipe {
   std::vector<ObjectRecipe> objects{ObjectRecipe{}};
   std::vector<LightRecipe> lights{LightRecipe{}};
   std::vector<CameraRecipe> cameras;  ///< empty: a view that frames everything
+  ChartsRecipe charts;
+  AtlasRecipe atlas;
   TransferRecipe transfer;
   PatchOptions patch;
   RttRecipe rtt;

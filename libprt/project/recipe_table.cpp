@@ -44,6 +44,8 @@ const char* const kCostBounces = "rebakes the bounces only";
 const char* const kCostPatch = "rebakes the radiance transfer texture";
 const char* const kCostRtt = kCostPatch;
 const char* const kCostLight = "none: relights";
+const char* const kCostCharts = "unfolds the surface anew";
+const char* const kCostAtlas = "packs the charts anew";
 
 const std::vector<std::string> kMappings{"auto",    "latlong", "vcross", "hcross",
                                          "angular", "hstrip",  "vstrip"};
@@ -69,6 +71,15 @@ const std::vector<Row<ObjectRecipe>> kObject{
      {},
      kCostDirect,
      "Off, the object takes no part in scene, rays and pictures but keeps its settings."},
+    {"seams",
+     [](ObjectRecipe& o) -> FieldRef { return &o.seams; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostCharts,
+     "Cuts drawn by hand, for charts.mode=manual: chains of the mesh's vertex numbers, '4 8 15;16 23 42'."},
 };
 
 const std::vector<Row<MeshRecipe>> kMesh{
@@ -394,6 +405,95 @@ const std::vector<Row<CameraRecipe>> kCamera{
      {},
      "none",
      "Parallel rays: the picture is as high as the field of view is at the target."},
+};
+
+const std::vector<Row<ChartsRecipe>> kCharts{
+    {"mode",
+     [](ChartsRecipe& c) -> FieldRef { return choice(c.mode); },
+     ParameterType::Choice,
+     "",
+     0,
+     0,
+     {"auto", "manual", "imported"},
+     kCostCharts,
+     "Who cuts: the program, you (objects[].seams), or nobody: the meshes' own coordinates, where they do "
+     "not "
+     "overlap."},
+    {"stretch",
+     [](ChartsRecipe& c) -> FieldRef { return &c.stretch; },
+     ParameterType::Number,
+     "",
+     1,
+     4,
+     {},
+     kCostCharts,
+     "Auto: bound on the L2 stretch of all charts together; 1 is isometric, more means fewer charts."},
+    {"creases",
+     [](ChartsRecipe& c) -> FieldRef { return &c.creases; },
+     ParameterType::Number,
+     "",
+     0,
+     1,
+     {},
+     kCostCharts,
+     "Auto: how much seams keep to creases and valleys rather than being short."},
+    {"boundary",
+     [](ChartsRecipe& c) -> FieldRef { return choice(c.boundary); },
+     ParameterType::Choice,
+     "",
+     0,
+     0,
+     {"free", "polygon"},
+     kCostCharts,
+     "Outline of charts: as it falls with least stretch, or a polygon with corners on a circle."},
+    {"corners",
+     [](ChartsRecipe& c) -> FieldRef { return &c.corners; },
+     ParameterType::Integer,
+     "corners",
+     3,
+     64,
+     {},
+     kCostCharts,
+     "Corners of each chart's polygon, spread along its boundary by length."},
+};
+
+const std::vector<Row<AtlasRecipe>> kAtlas{
+    {"size",
+     [](AtlasRecipe& a) -> FieldRef { return &a.size; },
+     ParameterType::Integer,
+     "texels",
+     64,
+     16384,
+     {},
+     kCostAtlas,
+     "Texels along a side of the atlas."},
+    {"gutter",
+     [](AtlasRecipe& a) -> FieldRef { return &a.gutter; },
+     ParameterType::Integer,
+     "texels",
+     0,
+     64,
+     {},
+     kCostAtlas,
+     "Empty texels around each chart, so twice as many between two."},
+    {"turns",
+     [](AtlasRecipe& a) -> FieldRef { return &a.turns; },
+     ParameterType::Integer,
+     "directions",
+     1,
+     64,
+     {},
+     kCostAtlas,
+     "Directions in which each chart is tried."},
+    {"placements",
+     [](AtlasRecipe& a) -> FieldRef { return &a.placements; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostAtlas,
+     "Charts that stay where they are put: CHART SCALE DEGREES U V each, parted by ';'."},
 };
 
 const std::vector<Row<TransferRecipe>> kTransfer{
@@ -752,6 +852,8 @@ std::vector<Parameter> listParameters() {
   list(kMaterial, "objects[].material", all);
   list(kLight, "lights[]", all);
   list(kCamera, "cameras[]", all);
+  list(kCharts, "charts", all);
+  list(kAtlas, "atlas", all);
   list(kTransfer, "transfer", all);
   list(kPatch, "patch", all);
   list(kRtt, "rtt", all);
@@ -792,7 +894,9 @@ void forEachField(Recipe& r, const std::function<void(const FieldPlace&, const F
     visitRows(kLight, r.lights[i], indexed("lights", i), lightRows, visit);
   for (std::size_t i = 0; i < r.cameras.size(); ++i)
     visitRows(kCamera, r.cameras[i], indexed("cameras", i), cameraRows, visit);
-  std::size_t next = visitRows(kTransfer, r.transfer, "transfer", cameraRows + kCamera.size(), visit);
+  std::size_t next = visitRows(kCharts, r.charts, "charts", cameraRows + kCamera.size(), visit);
+  next = visitRows(kAtlas, r.atlas, "atlas", next, visit);
+  next = visitRows(kTransfer, r.transfer, "transfer", next, visit);
   next = visitRows(kPatch, r.patch, "patch", next, visit);
   next = visitRows(kRtt, r.rtt, "rtt", next, visit);
   visitRows(kMethod, r.method, "method", next, visit);

@@ -4,6 +4,7 @@
 #include "libprt/core/log.h"
 #include "libprt/mesh/generate.h"
 #include "libprt/mesh/repair.h"
+#include "libprt/project/atlas_stages.h"
 #include "libprt/project/errors.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
@@ -24,6 +25,11 @@ ProductPtr makeDirect(StageRun& run);
 ProductPtr makeTransfer(StageRun& run);
 ProductPtr makeFloor(StageRun& run);
 std::string directForm(const Recipe& recipe);
+
+/// For products that nothing is drawn from yet: made by `--stage`.
+bool onlyWhenAsked(const Recipe&) {
+  return false;
+}
 
 /// The pipeline. A stage reads its inputs and the parts of the recipe that stand in its line, nothing else.
 std::vector<Stage> makeStages() {
@@ -78,6 +84,22 @@ std::vector<Stage> makeStages() {
        .previews = false,
        .make = makeFloor,
        .load = FloorProduct::load},
+      {.name = "charts",
+       .makes = "the surface cut into disks, each laid flat",
+       .inputs = {"mesh", "scene"},
+       .reads = {"objects[].seams", "charts"},
+       .wanted = onlyWhenAsked,
+       .previews = false,
+       .make = makeChartsStage,
+       .load = ChartsProduct::load},
+      {.name = "atlas",
+       .makes = "all charts side by side in one square",
+       .inputs = {"scene", "charts"},
+       .reads = {"atlas"},
+       .wanted = onlyWhenAsked,
+       .previews = false,
+       .make = makeAtlasStage,
+       .load = AtlasProduct::load},
       {.name = "patch",
        .makes = "one period of the surface's fine structure",
        .reads = {"patch"},

@@ -7,6 +7,7 @@
 //   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
 //                  ├─> rays ────┘                       ├─> relight
 //                  └─> frames ──────────────────────────┘
+//   scene ─> charts ─> atlas
 //   patch ─> rtt
 
 #include "libprt/core/job.h"

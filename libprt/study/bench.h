@@ -39,5 +39,7 @@ const std::vector<BenchInfo>& benches();
 /// compared; 0 = as many as the bench needs for a steady result. Throws ValueError, naming the choices, when
 /// there is none of that name, and Cancelled.
 BenchResult runBench(const std::string& name, Job& job, int repetitions = 0);
+/// Bench "atlas" of a mesh file instead of the built-in shapes.
+BenchResult runAtlasBench(const std::string& meshFile, Job& job, int repetitions = 0);
 
 }  // namespace prt

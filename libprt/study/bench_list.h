@@ -23,6 +23,9 @@ BenchResult benchRtt(Job& job, int repetitions);
 /// prt-studio's frames under a real hand's events against what must hold; `repetitions` frames of each part.
 BenchResult benchStudio(Job& job, int repetitions);
 
+/// The automatic atlas of built-in shapes, or of one mesh file, against laying its charts flat alone.
+BenchResult benchAtlas(Job& job, int repetitions);
+
 struct Scene;
 class RayScene;
 struct SampleSet;
