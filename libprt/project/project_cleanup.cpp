@@ -4,8 +4,14 @@
 #include "libprt/project/project_schema.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace prt {
+namespace {
+
+const char* const kVacuumStep = "PRAGMA incremental_vacuum(128)";  // pages of 64 KiB: 8 MB
+
+}  // namespace
 
 void ProjectFile::keepOnly(const std::set<std::string>& keys) {
   std::lock_guard lock(mutex_);
@@ -43,7 +49,13 @@ void ProjectFile::keepRecent(const std::set<std::string>& keys, std::int64_t byt
     transaction.commit();
     total -= other.bytes;
   }
-  work_->execute("PRAGMA incremental_vacuum");
+  // In steps: whoever cancels need not wait for all of it. The rest goes with the next clean-up.
+  std::int64_t free = work_->integer("PRAGMA freelist_count"), before = free + 1;
+  while (free > 0 && free < before) {
+    job.checkCancelled();
+    work_->execute(kVacuumStep);
+    before = std::exchange(free, work_->integer("PRAGMA freelist_count"));
+  }
 }
 
 }  // namespace prt
