@@ -4,6 +4,8 @@
 #include "ui/docks/light_dock.h"
 #include "ui/docks/log_dock.h"
 #include "ui/docks/material_dock.h"
+#include "ui/docks/patch_dock.h"
+#include "ui/docks/rtt_dock.h"
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
 #include "ui/document_menu.h"
@@ -40,7 +42,7 @@ namespace prt::ui {
 
 namespace {
 
-constexpr int kLayoutVersion = 2;  // raised when the docks change, so that old layouts are not restored
+constexpr int kLayoutVersion = 3;  // raised when the docks change, so that old layouts are not restored
 constexpr int kRecoveryTop = 72;   // below what the corners of the picture say
 constexpr int kRecoveryWidth = 640;
 constexpr int kThumbWidth = 192, kThumbHeight = 120;
@@ -155,11 +157,12 @@ void MainWindow::makeDocks() {
   QDockWidget* transfer = addDock(tr("Transfer"), QStringLiteral("transfer"), new TransferDock(session_),
                                   Qt::RightDockWidgetArea);
 
-  const auto bring = [](QDockWidget* dock) {
-    return [dock] {
-      dock->show();
-      dock->raise();
-    };
+  QDockWidget* patch =
+      addDock(tr("Patch"), QStringLiteral("patch"), new PatchDock(session_), Qt::RightDockWidgetArea);
+  addDock(tr("RTT"), QStringLiteral("rtt"), new RttDock(session_), Qt::RightDockWidgetArea);
+
+  const auto bring = [this](QDockWidget* dock) {
+    return [this, name = dock->objectName()] { bringToFront(name); };
   };
   const auto stage = [this](std::initializer_list<const char*> names) {
     QStringList list;
@@ -167,6 +170,14 @@ void MainWindow::makeDocks() {
     return [this, list] { return session_.bakes().worstStatus(list); };
   };
   strip_->addStep(tr("Mesh"), tr("The objects, read and repaired."), stage({"mesh"}), bring(scene));
+  const auto meso = stage({"patch", "rtt"});
+  strip_->addStep(
+      tr("Patch"), tr("The surface's fine structure and how it answers to light."),
+      [this, meso] {
+        const bool none = session_.document().recipe().patch.model == PatchModel::None;
+        return none ? ProductStatus::Missing : meso();
+      },
+      bring(patch));
   strip_->addStep(tr("Transfer"), tr("What is baked for the surface."), stage({"direct", "transfer"}),
                   bring(transfer));
   strip_->addStep(
@@ -204,6 +215,7 @@ void MainWindow::setPictureMode(bool on) {
 bool MainWindow::bringToFront(const QString& name) {
   auto* dock = findChild<QDockWidget*>(name);
   if (!dock) return false;
+  if (dock->isHidden()) layouts_->chooseFor(name);
   dock->show();
   dock->raise();
   return true;

@@ -92,10 +92,17 @@ class Padding {
 
 }  // namespace
 
-PatchScene makePatchScene(std::shared_ptr<const Patch> patch, Job& job) {
+PatchScene makePatchRays(std::shared_ptr<const Patch> patch, Job& job) {
   PatchScene out;
   out.scene = std::make_shared<Scene>(sceneOf(patch->mesh));
   out.rays = std::make_shared<RayScene>(*out.scene, Periodic{}, job);
+  out.patch = std::move(patch);
+  return out;
+}
+
+PatchScene makePatchScene(std::shared_ptr<const Patch> from, Job& job) {
+  PatchScene out = makePatchRays(std::move(from), job);
+  const auto& patch = out.patch;
   std::vector<std::uint32_t> firsts;
   std::vector<std::uint32_t> number(patch->twin.size());
   for (std::uint32_t v = 0; v < patch->twin.size(); ++v)
@@ -104,7 +111,6 @@ PatchScene makePatchScene(std::shared_ptr<const Patch> patch, Job& job) {
   out.samples = std::make_shared<SampleSet>(
       someSamples(samplesAtVertices(sceneOf(Padding(patch->mesh, job).run()), &job), firsts));
   job.checkCancelled();
-  out.patch = std::move(patch);
   return out;
 }
 

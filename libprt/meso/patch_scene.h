@@ -23,6 +23,8 @@ struct PatchScene {
 
 /// Throws what RayScene throws, and Cancelled.
 PatchScene makePatchScene(std::shared_ptr<const Patch> patch, Job& job);
+/// The same without samples: enough for pictures, and sooner there.
+PatchScene makePatchRays(std::shared_ptr<const Patch> patch, Job& job);
 
 /// A ray of the picture of the patch in direction `view` (unit, z > 0) that crosses the middle plane at `uv`:
 /// it starts above the surface and looks down along -view.

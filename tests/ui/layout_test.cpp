@@ -94,7 +94,7 @@ TEST_F(LayoutWindow, TheStripChangesMoodsAndEachKeepsWhatWasMadeOfIt) {
   choose("Relight");
   EXPECT_EQ(area("light"), Qt::LeftDockWidgetArea);
   EXPECT_EQ(area("transfer"), Qt::RightDockWidgetArea);
-  QTest::keyClick(handle(), Qt::Key_F5);
+  QTest::keyClick(handle(), Qt::Key_F6);
   EXPECT_EQ(window.layouts().current(), s("bake"));
   EXPECT_EQ(area("transfer"), Qt::LeftDockWidgetArea) << "as it was left";
   window.resetLayout();
@@ -131,6 +131,18 @@ TEST_F(LayoutWindow, ADoubleClickOnTheTitleFloatsADockAndItsButtonsWork) {
   EXPECT_TRUE(dock->isHidden());
   dock->toggleViewAction()->trigger();
   EXPECT_FALSE(dock->isHidden());
+}
+
+TEST_F(LayoutWindow, ADockThatAMoodDoesWithoutBringsItsOwnMood) {
+  EXPECT_EQ(window.layouts().current(), s("relight"));
+  EXPECT_FALSE(window.findChild<QDockWidget*>(s("patch"))->isVisible());
+  ASSERT_TRUE(window.bringToFront(s("patch")));
+  pass(30);
+  EXPECT_EQ(window.layouts().current(), s("author"));
+  EXPECT_TRUE(window.findChild<QDockWidget*>(s("patch"))->isVisible());
+  window.findChild<QDockWidget*>(s("patch"))->hide();
+  ASSERT_TRUE(window.bringToFront(s("patch")));
+  EXPECT_EQ(window.layouts().current(), s("author")) << "closed by hand: it comes back where it was";
 }
 
 TEST_F(LayoutWindow, TabsBringDocksForward) {

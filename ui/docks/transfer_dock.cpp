@@ -79,7 +79,9 @@ void TransferDock::refresh() {
 void TransferDock::refreshProducts() {
   auto* grid = static_cast<QGridLayout*>(products_->layout());
   std::vector<StageInfo> infos = session_.bakes().stageInfos();
-  std::erase_if(infos, [](const StageInfo& info) { return !info.stored; });
+  std::erase_if(infos, [](const StageInfo& info) {  // the meso scale has a dock of its own
+    return !info.stored || info.name == QLatin1String("patch") || info.name == QLatin1String("rtt");
+  });
   for (int row = 0; row < int(infos.size()); ++row) {
     if (!grid->itemAtPosition(row, 0)) {
       grid->addWidget(new StateDot, row, 0);

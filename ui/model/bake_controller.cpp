@@ -46,15 +46,21 @@ bool sameBake(const Recipe& a, const Recipe& b) {
           return true;
     return false;
   }();
-  return !lightsMatter && a.objects == b.objects && a.transfer == b.transfer;
+  return !lightsMatter && a.objects == b.objects && a.transfer == b.transfer && a.patch == b.patch &&
+         a.rtt == b.rtt;
 }
 
 // What the studio shows. What these are made from follows by itself.
-const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer"};
+const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt"};
 
 const Stage& stageNamed(const std::string& name) {
   return *std::find_if(stages().begin(), stages().end(),
                        [&](const Stage& stage) { return stage.name == name; });
+}
+
+bool wantedBy(const Recipe& recipe, const std::string& stage) {
+  const auto& wanted = stageNamed(stage).wanted;
+  return !wanted || wanted(recipe);
 }
 
 // The stage and all that it is made from, in any order.
@@ -150,6 +156,7 @@ void BakeController::setRecipe(const Recipe& recipe) {
   std::map<std::string, std::string> wanted = readings(recipe);
   if (wanted == wanted_) return;
   wanted_ = std::move(wanted);
+  for (StageInfo& info : infos_) info.wanted = wantedBy(recipe, info.name.toStdString());
   cancel();
   refreshStale();
   if (automatic_ && !fresh()) start();
@@ -196,7 +203,7 @@ void BakeController::setAutomatic(bool automatic) {
 
 bool BakeController::fresh() const {
   return std::all_of(infos_.begin(), infos_.end(),
-                     [](const StageInfo& i) { return i.status == ProductStatus::Fresh; });
+                     [](const StageInfo& i) { return !i.wanted || i.status == ProductStatus::Fresh; });
 }
 
 ProductStatus BakeController::worstStatus(const QStringList& names) const {
@@ -204,16 +211,20 @@ ProductStatus BakeController::worstStatus(const QStringList& names) const {
                                       ProductStatus::Stale, ProductStatus::Missing};
   for (const ProductStatus status : kOrder)
     for (const StageInfo& info : infos_)
-      if (info.status == status && names.contains(info.name)) return status;
+      if (info.wanted && info.status == status && names.contains(info.name)) return status;
   return ProductStatus::Fresh;
 }
 
 void BakeController::start() {
   const quint64 bake = ++bake_;
-  const auto work = [baker = baker_, folder = folder_, recipe = recipe_, mailbox = mailbox_, bake](Job& job) {
+  std::vector<std::string> targets;
+  for (const std::string& name : kWanted)
+    if (wantedBy(recipe_, name)) targets.push_back(name);
+  const auto work = [baker = baker_, folder = folder_, recipe = recipe_, targets, mailbox = mailbox_,
+                     bake](Job& job) {
     Listener listener(mailbox, bake);
     baker->pipeline.setFolder(folder);
-    baker->pipeline.run(recipe, kWanted, job, &listener);
+    baker->pipeline.run(recipe, targets, job, &listener);
     baker->store.keepRecent(baker->pipeline.liveKeys(recipe), kKeptForUndo, job);
   };
   const auto finish = [self = QPointer(this), bake](const JobInfo& job) {

@@ -23,6 +23,7 @@ struct StageInfo {
   QString name;
   QString makes;
   bool stored = true;  ///< kept in projects; others are quickly made and of little interest
+  bool wanted = true;  ///< the recipe asks for it; others are not made and count as fresh
   ProductStatus status = ProductStatus::Missing;
   int level = 0, levels = 0;  ///< of a preview
 };

@@ -22,6 +22,9 @@
 #include <QToolButton>
 #include <QToolTip>
 
+#include <algorithm>
+#include <cmath>
+
 namespace prt::ui {
 
 namespace {
@@ -48,7 +51,9 @@ NumberFormat formatOf(const Parameter& parameter, const QString& title) {
     format.high = parameter.high;
     format.logarithmic = parameter.low > 0 && parameter.high / parameter.low >= kLogarithmicFrom;
   }
-  format.decimals = parameter.type == ParameterType::Integer ? 0 : (format.logarithmic ? 1 : 3);
+  // The least value can be told from nothing.
+  const int fine = format.logarithmic ? std::clamp(int(std::ceil(-std::log10(format.low))), 1, 4) : 3;
+  format.decimals = parameter.type == ParameterType::Integer ? 0 : fine;
   format.unit = unitBehind(title, QString::fromStdString(parameter.unit));
   if (parameter.unit == "degrees") format.decimals = 1, format.step = 5;
   return format;

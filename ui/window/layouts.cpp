@@ -18,19 +18,26 @@ QString s(const char* text) {
 
 std::vector<LayoutPlan> layoutPlans() {
   const QStringList jobsAndLog{s("jobs"), s("log")};
+  const QStringList mesoDocks{s("patch"), s("rtt")};
   return {
+      {.name = s("author"),
+       .title = QObject::tr("Author"),
+       .tip = QObject::tr("Docks for making the fine structure: the patch and how it answers to light."),
+       .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
+       .right = {kRightWidth, {{mesoDocks, 848}}},
+       .hidden = {s("material"), s("transfer")}},
       {.name = s("bake"),
        .title = QObject::tr("Bake"),
        .tip = QObject::tr("Docks for baking: what is baked and how far, jobs and log."),
        .left = {kLeftWidth, {{{s("scene")}, 420}, {jobsAndLog, 428}}},
        .right = {kRightWidth, {{{s("transfer")}, 480}, {{s("material"), s("light")}, 368}}},
-       .hidden = {}},
+       .hidden = mesoDocks},
       {.name = s("relight"),
        .title = QObject::tr("Relight"),
        .tip = QObject::tr("Docks for looking: light and material at hand."),
        .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
        .right = {kRightWidth, {{{s("material")}, 500}, {{s("transfer")}, 348}}},
-       .hidden = {}},
+       .hidden = mesoDocks},
   };
 }
 
@@ -55,6 +62,12 @@ void Layouts::choose(const QString& name) {
       arrange(plan(current_));
   }
   Q_EMIT chosen(current_);
+}
+
+void Layouts::chooseFor(const QString& dock) {
+  if (!plan(current_).hidden.contains(dock)) return;
+  for (const LayoutPlan& each : plans_)
+    if (!each.hidden.contains(dock)) return choose(each.name);
 }
 
 void Layouts::reset() {

@@ -46,6 +46,8 @@ class Layouts : public QObject {
   QString current() const { return current_; }
   /// Keeps the arrangement of now and goes to another mood as it was left, or as it is planned.
   void choose(const QString& name);
+  /// Where the current mood does without this dock, goes to the first that needs it.
+  void chooseFor(const QString& dock);
   /// The current mood as it is planned.
   void reset();
 

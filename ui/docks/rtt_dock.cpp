@@ -1,0 +1,118 @@
+#include "ui/docks/rtt_dock.h"
+
+#include "ui/docks/jobs_dock.h"
+#include "ui/model/session.h"
+#include "ui/widgets/property_row.h"
+#include "ui/widgets/rtt_square.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/view_grid.h"
+
+#include <QLabel>
+#include <QLocale>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include <cmath>
+
+namespace prt::ui {
+
+RttDock::RttDock(Session& session, QWidget* parent)
+    : DockColumn(parent),
+      session_(session),
+      look_(session.bakes(), session.relighter(), session.jobs()),
+      square_(new Section(tr("Under this light"))),
+      views_(new Section(tr("Views"))),
+      viewText_(new QLabel),
+      state_(new QLabel),
+      bar_(new QProgressBar),
+      button_(new QPushButton) {
+  square_->add(new RttSquare(look_, session_.view()));
+  setRole(viewText_, "muted");
+  square_->add(viewText_);
+  add(square_);
+  views_->add(new ViewGrid(look_, session_.view()));
+  add(views_);
+  add(makeBake());
+  connect(&look_, &RttLook::changed, this, &RttDock::refresh);
+  connect(&session_.bakes(), &BakeController::changed, this, &RttDock::refresh);
+  connect(&session_.document(), &Document::recipeChanged, this, &RttDock::refresh);
+  connect(&session_.document(), &Document::opened, &look_, &RttLook::forget);
+  connect(&session_.jobs(), &JobRunner::changed, this, [this](quint64 id) {
+    if (id == session_.bakes().job()) refresh();
+  });
+  refresh();
+}
+
+Section* RttDock::makeBake() {
+  auto* section = new Section(tr("Radiance transfer texture"));
+  for (const char* path : {"rtt.texels", "rtt.views", "rtt.bands", "rtt.rays", "rtt.bounces",
+                           "rtt.supersamples", "rtt.lobeRays", "rtt.storage"}) {
+    const bool longName = QLatin1String(path) == QLatin1String("rtt.supersamples");
+    section->add(
+        new PropertyRow(session_.document(), QLatin1String(path), longName ? tr("Samples") : QString()));
+  }
+  bar_->setObjectName(QStringLiteral("rttProgress"));
+  bar_->setTextVisible(false);
+  bar_->setFixedHeight(kGrid);
+  section->add(bar_);
+  setRole(state_, "muted");
+  state_->setWordWrap(true);
+  section->add(state_);
+  button_->setObjectName(QStringLiteral("rttBake"));
+  connect(button_, &QPushButton::clicked, this, [this] {
+    if (session_.bakes().baking())
+      session_.bakes().cancel();
+    else
+      session_.bakes().bake();
+  });
+  section->add(button_);
+  return section;
+}
+
+QString RttDock::stateText() const {
+  if (session_.document().recipe().patch.model == PatchModel::None)
+    return tr("Choose a patch first: it is what is baked here.");
+  const ProductStatus status = session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
+  const JobInfo* job = session_.jobs().find(session_.bakes().job());
+  if (session_.bakes().baking() && job && status != ProductStatus::Fresh) {
+    const Progress& p = job->progress;
+    return tr("%1 \u00b7 %2").arg(QString::fromStdString(p.phase), progressText(p));
+  }
+  const auto& rtt = look_.rtt();
+  if (!rtt) return tr("Not baked yet.");
+  const double megabytes = double(rtt->values.size() * sizeof(float)) / 1e6;
+  QString text = tr("%1\u00b2 texels, %2\u00b2 views, %3 functions%4\n%5 MB, bounces: %6")
+                     .arg(rtt->texels)
+                     .arg(rtt->views)
+                     .arg(rtt->functions())
+                     .arg(rtt->channels == 3 ? tr(" in colour") : QString())
+                     .arg(megabytes, 0, 'f', 1)
+                     .arg(rtt->bounces);
+  if (look_.storageError() > 0) text += tr("; rounding %1 %").arg(100 * look_.storageError(), 0, 'g', 2);
+  return text;
+}
+
+void RttDock::refresh() {
+  const bool patch = session_.document().recipe().patch.model != PatchModel::None;
+  const bool baking = session_.bakes().baking();
+  const ProductStatus status = session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
+  const JobInfo* job = baking ? session_.jobs().find(session_.bakes().job()) : nullptr;
+  bar_->setVisible(patch && job && status != ProductStatus::Fresh);
+  if (job) {
+    bar_->setRange(0, 1000);
+    bar_->setValue(int(std::lround(1000 * job->progress.fraction())));
+  }
+  square_->setVisible(patch);
+  views_->setVisible(patch);
+  state_->setText(stateText());
+  button_->setVisible(patch);
+  button_->setEnabled(baking || status != ProductStatus::Fresh);
+  button_->setText(baking ? tr("Cancel") : tr("Bake"));
+  button_->setIcon(icon(baking ? QStringLiteral("process-stop") : QStringLiteral("run-build")));
+  const Vec3& d = look_.view();
+  viewText_->setText(tr("From %1\u00b0 off the zenith, towards %2\u00b0")
+                         .arg(std::acos(double(d.z)) * 180 / M_PI, 0, 'f', 0)
+                         .arg(std::atan2(double(d.y), double(d.x)) * 180 / M_PI, 0, 'f', 0));
+}
+
+}  // namespace prt::ui
