@@ -9,7 +9,7 @@
 
 #include "libprt/core/math.h"
 #include "libprt/material/material.h"
-#include "libprt/meso/patch_build.h"
+#include "libprt/meso/patch_options.h"
 #include "libprt/shade/camera.h"
 
 #include <nlohmann/json_fwd.hpp>
