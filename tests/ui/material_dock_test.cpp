@@ -39,7 +39,7 @@ class MaterialDockTest : public test::StudioTest {
   const Material& material() { return session.document().recipe().objects[0].material; }
   ParameterSlider* slider() { return window.findChild<ParameterSlider*>(); }
   LobePlot* plot() { return window.findChild<LobePlot*>(); }
-  PresetGrid* presets() { return window.findChild<PresetGrid*>(); }
+  PresetGrid* presets() { return window.findChild<PresetGrid*>(s("presetGrid")); }
   QFrame* warning() { return window.findChild<QFrame*>(s("energyWarning")); }
   int preset(const char* name) {
     for (std::size_t i = 0; i < materialPresets().size(); ++i)

@@ -116,7 +116,7 @@ TEST_F(PaletteTest, AParameterIsFocusedInItsRowEvenInATabBehind) {
   pass(50);
   auto* row = window.findChild<PropertyRow*>(s("transfer.rays"));
   openPalette();
-  type("rays");
+  type("transfer.rays");
   enter();
   EXPECT_TRUE(row->isVisible());
   EXPECT_TRUE(row->editor()->hasFocus());

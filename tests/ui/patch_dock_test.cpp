@@ -54,13 +54,9 @@ class PatchDockTest : public test::StudioTest {
   void choose(const char* name) { Pointer(presets()).click(QRectF(presets()->cell(preset(name))).center()); }
   /// What the canvas shows once it stands still.
   QImage settledPicture() {
-    QImage last;
-    waitFor([&] {
-      pass(120);
-      const QImage now = canvas()->grab().toImage();
-      return now == std::exchange(last, now);
-    });
-    return last;
+    const PatchPreview& preview = window.findChild<PatchDock*>()->preview();
+    EXPECT_TRUE(waitFor([&] { return preview.current(); }));
+    return canvas()->grab().toImage();
   }
   Recipe smallRtt() {
     Recipe recipe = test::smallScene();

@@ -137,7 +137,7 @@ TEST_F(TourTest, FromADroppedMeshToASavedProjectThatSurvivesBeingKilled) {
   EXPECT_GT(difference(turned, picture()), 0.02) << "the light shines";
 
   // A glossy preset, then its gloss.
-  auto* presets = window.findChild<PresetGrid*>();
+  auto* presets = window.findChild<PresetGrid*>(test::s("presetGrid"));
   ASSERT_TRUE(presets);
   int glossy = 0;
   for (; glossy < 64 && !session.document().recipe().objects[0].material.glossy(); ++glossy)

@@ -21,6 +21,8 @@ class PatchDock : public DockColumn {
  public:
   explicit PatchDock(Session& session, QWidget* parent = nullptr);
 
+  const PatchPreview& preview() const { return preview_; }
+
  protected:
   void showEvent(QShowEvent* event) override;
 

@@ -59,6 +59,7 @@ Section* RttDock::makeBake() {
   state_->setWordWrap(true);
   section->add(state_);
   button_->setObjectName(QStringLiteral("rttBake"));
+  button_->setToolTip(tr("Bake everything that is out of date; while it bakes: stop, keeping what is done."));
   connect(button_, &QPushButton::clicked, this, [this] {
     if (session_.bakes().baking())
       session_.bakes().cancel();
@@ -81,7 +82,7 @@ QString RttDock::stateText() const {
   const auto& rtt = look_.rtt();
   if (!rtt) return tr("Not baked yet.");
   const double megabytes = double(rtt->values.size() * sizeof(float)) / 1e6;
-  QString text = tr("%1\u00b2 texels, %2\u00b2 views, %3 functions%4\n%5 MB, bounces: %6")
+  QString text = tr("%1 \u00d7 %1 texels, %2 \u00d7 %2 views\n%3 functions%4, %5 MB, bounces: %6")
                      .arg(rtt->texels)
                      .arg(rtt->views)
                      .arg(rtt->functions())
