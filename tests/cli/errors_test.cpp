@@ -71,7 +71,7 @@ TEST_F(Errors, WrongUsageIsStatus2) {
   EXPECT_THAT(failure(kUsage, {"bake", "t.obj"}), HasSubstr("-o"));
   EXPECT_THAT(failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stages", "mesh"}),
               HasSubstr("did you mean --stage?"));
-  failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stage", "charts"});
+  failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--stage", "quilts"});
   failure(kUsage, {"bake", "t.obj", "-o", "b.prt", "--threads", "many"});
   failure(kUsage, {"info"});
   failure(kUsage, {"info", "a.prt", "b.prt"});
