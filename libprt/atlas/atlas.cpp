@@ -107,8 +107,12 @@ Atlas placeAtlas(const FlatCharts& charts, std::vector<ChartPlacement> placement
 Atlas packAtlas(const FlatCharts& charts, const AtlasOptions& options, Job& job) {
   std::vector<PackChart> outlines;
   for (std::size_t c = 0; c < charts.charts.charts.size(); ++c) {
+    const Chart& chart = charts.charts.charts[c];
+    if (chart.fault() != ChartFault::None || charts.uv[c].size() != chart.vertices.size())
+      throw GeometryError("cannot be laid flat: " + faultText(chart), "chart " + std::to_string(c + 1),
+                          "cut it there, or repair the mesh");
     PackChart& outline = outlines.emplace_back();
-    for (std::uint32_t v : charts.charts.charts[c].loops[0]) outline.outline.push_back(charts.uv[c][v]);
+    for (std::uint32_t v : chart.loops[0]) outline.outline.push_back(charts.uv[c][v]);
     outline.area = charts.charts.charts[c].area;
     outline.flatArea = charts.stretch[c].flatArea;
     if (c < options.weights.size()) outline.weight = options.weights[c];

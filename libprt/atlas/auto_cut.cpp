@@ -247,10 +247,10 @@ class FineCut {
     bool changed = false;
     for (std::uint32_t c : again)
       if (!last || laid_[c].failed) changed |= undo(c);
-    if (!changed)
+    if (!changed)  // nothing left to cut: from Tutte's map, however long it takes, or the error that names it
       for (std::uint32_t c : again)
         if (laid_[c].failed)
-          layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, job_);  // throws
+          laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, job_);
     return changed;
   }
 
