@@ -133,6 +133,18 @@ TEST(PackCharts, SaysWhenThereIsNoRoom) {
   EXPECT_THROW(packCharts(charts, {}, {.size = 4}, job), ValueError);
 }
 
+TEST(Atlas, ChartsThatAreNotFlatAreNamed) {
+  Job job;
+  Packed p = packed(makeBuiltinMesh("vase", 1, 1));
+  p.charts.uv[1].clear();
+  try {
+    packAtlas(p.charts, {}, job);
+    FAIL() << "packed";
+  } catch (const GeometryError& error) {
+    EXPECT_NE(std::string(error.what()).find("chart 2"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Atlas, OfBuiltInShapesIsSound) {
   for (const char* name : {"bird", "vase", "torus", "box"}) {
     SCOPED_TRACE(name);
