@@ -12,18 +12,9 @@ import json
 import math
 import os
 import shutil
-import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-BLENDER_ENVIRONMENT = {**os.environ, "PATH": "/usr/bin:/bin"}
-
-
-def run(*command, env=None):
-    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=env)
-    if done.returncode != 0:
-        sys.exit(f"failed: {' '.join(map(str, command))}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
-    return done.stdout
+from blender import BLENDER_ENVIRONMENT, HERE, run
 
 
 def view_centre(index, side):

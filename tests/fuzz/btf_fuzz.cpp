@@ -4,19 +4,11 @@
 #include "libprt/meso/btf_import.h"
 #include "tests/fuzz/target.h"
 
-#include <cstdlib>
 #include <cstring>
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prt;
+  using fuzz::require;
   try {
     const BtfSet set = parseBtfManifest({reinterpret_cast<const char*>(data), size}, "fuzzed");
     for (const BtfEntry& entry : set.images) {

@@ -2,32 +2,22 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/file.h"
-#include "libprt/core/image_io.h"
 #include "libprt/light/environment_io.h"
 #include "libprt/light/projection.h"
+#include "tests/fuzz/image_limits.h"
 #include "tests/fuzz/target.h"
 #include "tests/light/light_test_support.h"
 #include "tests/support/temporary_folder.h"
 
-#include <cstdlib>
 #include <cstring>
 
-namespace {
-
 using namespace prt;
-
-constexpr ImageLimits kLimits{.maxSide = 4096, .maxChannels = 64, .maxBytes = 16 << 20};
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
+using fuzz::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::span<const std::byte> file(reinterpret_cast<const std::byte*>(data), size);
-    const EnvironmentMap map = makeEnvironment(readImage(file, "fuzzed", kLimits), "fuzzed");
+    const EnvironmentMap map = makeEnvironment(readImage(file, "fuzzed", fuzz::kImageLimits), "fuzzed");
     for (const float value : map.pixels().data) require(value >= 0 && value <= kMaxRadiance);
     require(std::strchr(map.report().warning().c_str(), '\n') == nullptr);
     if (map.pixels().pixels() > 10'000) return 0;

@@ -2,31 +2,21 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/file.h"
-#include "libprt/core/image_io.h"
 #include "libprt/meso/patch_build.h"
+#include "tests/fuzz/image_limits.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/temporary_folder.h"
 
-#include <cstdlib>
 #include <cstring>
 
-namespace {
-
 using namespace prt;
-
-constexpr ImageLimits kLimits{.maxSide = 4096, .maxChannels = 64, .maxBytes = 16 << 20};
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
+using fuzz::require;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const std::span<const std::byte> file(reinterpret_cast<const std::byte*>(data), size);
     PatchSources sources;
-    sources.height = sources.texture = readImage(file, "fuzzed", kLimits);
+    sources.height = sources.texture = readImage(file, "fuzzed", fuzz::kImageLimits);
     PatchOptions options;
     options.model = PatchModel::HeightField;
     options.heightmap = options.texture = "fuzzed";

@@ -9,14 +9,9 @@
 #include "libprt/mesh/tangent_frames.h"
 #include "tests/fuzz/target.h"
 
-#include <cstdlib>
 #include <cstring>
 
 namespace prt::fuzz {
-
-inline void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// A repaired mesh is finite, in range, with unit normals and triangles that have area.
 inline void requireUsable(const TriMesh& mesh) {

@@ -11,19 +11,15 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
 namespace {
 
 using namespace prt;
+using fuzz::require;
 
 constexpr std::size_t kMaxArrayBytes = 1 << 18;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 std::string lineFrom(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());

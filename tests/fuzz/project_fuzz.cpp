@@ -10,7 +10,6 @@
 #include "tests/support/temporary_folder.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <numeric>
@@ -18,11 +17,8 @@
 namespace {
 
 using namespace prt;
+using fuzz::require;
 namespace fs = std::filesystem;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 using Bytes = std::vector<std::byte>;
 

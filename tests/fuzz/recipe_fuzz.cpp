@@ -7,17 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
 namespace {
 
 using namespace prt;
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
+using fuzz::require;
 
 /// Calls action; an Error must be one line.
 template <class Action>

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ struct Target {
 };
 
 extern const Target target;
+
+/// What must hold for every input: a failure of the run.
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
 
 }  // namespace prt::fuzz
 

@@ -38,7 +38,7 @@ PatchDock::PatchDock(Session& session, QWidget* parent)
       message_(new MessageBar),
       facts_(new QLabel),
       warning_(new QLabel) {
-  auto* shape = makeRows(tr("Patch"), {});
+  auto* shape = new Section(tr("Patch"));
   shape->add(new PatchCanvas(preview_));
   setRole(facts_, "muted");
   setRole(warning_, "stale");
@@ -135,7 +135,7 @@ void PatchDock::makePictures() {
       [grid = QPointer(presets_), made](const JobInfo&) {
         if (!grid) return;
         std::vector<QImage> pictures;
-        for (const Image& image : *made) pictures.push_back(toQImage(image));
+        for (const Image& image : *made) pictures.push_back(toQImage(image, {}));
         grid->setPictures(std::move(pictures));
       });
 }

@@ -60,22 +60,24 @@ Section* RttDock::makeBake() {
   section->add(state_);
   button_->setObjectName(QStringLiteral("rttBake"));
   button_->setToolTip(tr("Bake everything that is out of date; while it bakes: stop, keeping what is done."));
-  connect(button_, &QPushButton::clicked, this, [this] {
-    if (session_.bakes().baking())
-      session_.bakes().cancel();
-    else
-      session_.bakes().bake();
-  });
+  connect(button_, &QPushButton::clicked, &session_.bakes(), &BakeController::bakeOrCancel);
   section->add(button_);
   return section;
+}
+
+ProductStatus RttDock::status() const {
+  return session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
+}
+
+const JobInfo* RttDock::ownJob() const {
+  const bool fresh = status() == ProductStatus::Fresh;
+  return session_.bakes().baking() && !fresh ? session_.jobs().find(session_.bakes().job()) : nullptr;
 }
 
 QString RttDock::stateText() const {
   if (session_.document().recipe().patch.model == PatchModel::None)
     return tr("Choose a patch first: it is what is baked here.");
-  const ProductStatus status = session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
-  const JobInfo* job = session_.jobs().find(session_.bakes().job());
-  if (session_.bakes().baking() && job && status != ProductStatus::Fresh) {
+  if (const JobInfo* job = ownJob()) {
     const Progress& p = job->progress;
     return tr("%1 \u00b7 %2").arg(QString::fromStdString(p.phase), progressText(p));
   }
@@ -96,9 +98,8 @@ QString RttDock::stateText() const {
 void RttDock::refresh() {
   const bool patch = session_.document().recipe().patch.model != PatchModel::None;
   const bool baking = session_.bakes().baking();
-  const ProductStatus status = session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
-  const JobInfo* job = baking ? session_.jobs().find(session_.bakes().job()) : nullptr;
-  bar_->setVisible(patch && job && status != ProductStatus::Fresh);
+  const JobInfo* job = ownJob();
+  bar_->setVisible(patch && job);
   if (job) {
     bar_->setRange(0, 1000);
     bar_->setValue(int(std::lround(1000 * job->progress.fraction())));
@@ -107,7 +108,7 @@ void RttDock::refresh() {
   views_->setVisible(patch);
   state_->setText(stateText());
   button_->setVisible(patch);
-  button_->setEnabled(baking || status != ProductStatus::Fresh);
+  button_->setEnabled(baking || status() != ProductStatus::Fresh);
   button_->setText(baking ? tr("Cancel") : tr("Bake"));
   button_->setIcon(icon(baking ? QStringLiteral("process-stop") : QStringLiteral("run-build")));
   const Vec3& d = look_.view();

@@ -21,6 +21,9 @@ class RttDock : public DockColumn {
  private:
   Section* makeBake();
   void refresh();
+  /// The bake that runs and makes what this dock shows; null when none does.
+  const JobInfo* ownJob() const;
+  ProductStatus status() const;
   QString stateText() const;
 
   Session& session_;

@@ -49,12 +49,7 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
   add(products);
   add(new ErrorSection(session_));
 
-  connect(button_, &QPushButton::clicked, this, [this] {
-    if (session_.bakes().baking())
-      session_.bakes().cancel();
-    else
-      session_.bakes().bake();
-  });
+  connect(button_, &QPushButton::clicked, &session_.bakes(), &BakeController::bakeOrCancel);
   connect(&session_.bakes(), &BakeController::changed, this, &TransferDock::refresh);
   connect(&session_, &Session::statusChanged, this, &TransferDock::refresh);
   connect(&session_, &Session::message, this, [this](Severity severity, const QString& text, Place place) {

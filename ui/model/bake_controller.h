@@ -46,6 +46,8 @@ class BakeController : public QObject {
   /// Bakes what is not fresh, whether or not it was cancelled before.
   void bake();
   void cancel();
+  /// What one button does: cancels while it bakes, bakes else.
+  void bakeOrCancel() { baking() ? cancel() : bake(); }
 
   bool automatic() const { return automatic_; }
   void setAutomatic(bool automatic);

@@ -1,9 +1,6 @@
 #include "ui/model/patch_presets.h"
 
 #include "libprt/meso/patch_picture.h"
-#include "libprt/shade/tonemap.h"
-
-#include <algorithm>
 
 namespace prt::ui {
 
@@ -77,14 +74,7 @@ std::vector<Image> patchPictures(int pixels, Job& job) {
     const auto patch = std::make_shared<const Patch>(buildPatch(options, {}, job));
     PatchView view;
     view.elevation = 0.9f, view.samples = 3;
-    Image image = patchPicture(makePatchRays(patch, job), view, pixels, pixels, job);
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-      float* p = image.data.data() + 4 * i;
-      const float alpha = std::max(p[3], 1e-6f);
-      const Rgb c = toDisplay(Rgb(p[0], p[1], p[2]) / alpha, {});
-      std::copy_n(&c.x, 3, p);
-    }
-    pictures.push_back(std::move(image));
+    pictures.push_back(patchPicture(makePatchRays(patch, job), view, pixels, pixels, job));
   }
   return pictures;
 }

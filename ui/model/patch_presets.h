@@ -23,7 +23,7 @@ int patchPresetOf(const PatchOptions& options);
 /// Shape and texture as in the preset; reflection stays, but where the preset has colours of its own.
 void applyPatchPreset(Document& document, const PatchPreset& preset);
 
-/// Small pictures of them, encoded for the screen, with coverage; `pixels` a side.
+/// Small pictures of them as patchPicture() makes them; `pixels` a side.
 std::vector<Image> patchPictures(int pixels, Job& job);
 
 }  // namespace prt::ui

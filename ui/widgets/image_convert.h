@@ -2,8 +2,11 @@
 // From the library's images to Qt's.
 
 #include "libprt/core/image.h"
+#include "libprt/shade/tonemap.h"
 
 #include <QImage>
+
+#include <algorithm>
 
 namespace prt::ui {
 
@@ -20,6 +23,19 @@ inline QImage toQImage(const Image& image) {
     }
   }
   return out;
+}
+
+/// A picture of linear radiance as `tone` shows it; where it has a fourth channel, coverage that is
+/// multiplied in, that becomes opacity.
+inline QImage toQImage(Image image, const ToneSettings& tone) {
+  const auto channels = std::size_t(image.channels);
+  for (std::size_t i = 0; i < image.pixels(); ++i) {
+    float* p = image.data.data() + channels * i;
+    const float covered = channels == 4 ? std::max(p[3], 1e-6f) : 1;
+    const Rgb c = toDisplay(Rgb(p[0], p[1], p[2]) / covered, tone);
+    std::copy_n(&c.x, 3, p);
+  }
+  return toQImage(image);
 }
 
 }  // namespace prt::ui

@@ -1,6 +1,5 @@
 #include "ui/widgets/patch_canvas.h"
 
-#include "libprt/shade/tonemap.h"
 #include "ui/model/patch_preview.h"
 #include "ui/widgets/image_convert.h"
 #include "ui/widgets/theme.h"
@@ -9,7 +8,6 @@
 #include <QMouseEvent>
 #include <QPainter>
 
-#include <algorithm>
 #include <cmath>
 
 namespace prt::ui {
@@ -19,16 +17,6 @@ namespace {
 constexpr float kTurn = 0.01f;      // radians a pixel
 constexpr float kKeyTurn = 0.1f;    // radians a key press
 constexpr double kZoomStep = 1.15;  // a notch of the wheel
-
-// Linear radiance times coverage, made ready for the screen.
-QImage shown(Image image) {
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
-    float* p = image.data.data() + 4 * i;
-    const Rgb c = toDisplay(Rgb(p[0], p[1], p[2]) / std::max(p[3], 1e-6f), {});
-    std::copy_n(&c.x, 3, p);
-  }
-  return toQImage(image);
-}
 
 }  // namespace
 
@@ -42,7 +30,7 @@ PatchCanvas::PatchCanvas(PatchPreview& preview, QWidget* parent) : QWidget(paren
 }
 
 void PatchCanvas::follow() {
-  picture_ = preview_.picture().empty() ? QImage() : shown(preview_.picture());
+  picture_ = preview_.picture().empty() ? QImage() : toQImage(preview_.picture(), {});
   picture_.setDevicePixelRatio(devicePixelRatioF());
   update();
 }

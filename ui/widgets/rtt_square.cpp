@@ -1,6 +1,5 @@
 #include "ui/widgets/rtt_square.h"
 
-#include "libprt/shade/tonemap.h"
 #include "ui/model/rtt_look.h"
 #include "ui/model/view_state.h"
 #include "ui/widgets/image_convert.h"
@@ -53,13 +52,7 @@ QRectF RttSquare::disc() const {
 }
 
 void RttSquare::follow() {
-  Image image = look_.square();
-  for (std::size_t i = 0; i < image.pixels(); ++i) {
-    float* p = image.data.data() + 3 * i;
-    const Rgb c = toDisplay(Rgb(p[0], p[1], p[2]), view_.tone());
-    std::copy_n(&c.x, 3, p);
-  }
-  picture_ = image.empty() ? QImage() : toQImage(image);
+  picture_ = look_.square().empty() ? QImage() : toQImage(look_.square(), view_.tone());
   update();
 }
 

@@ -1,7 +1,6 @@
 #include "ui/widgets/view_grid.h"
 
 #include "libprt/basis/view_square.h"
-#include "libprt/shade/tonemap.h"
 #include "ui/model/rtt_look.h"
 #include "ui/model/view_state.h"
 #include "ui/widgets/image_convert.h"
@@ -34,14 +33,7 @@ int ViewGrid::side() const {
 
 void ViewGrid::follow() {
   pictures_.clear();
-  for (Image image : look_.thumbnails()) {
-    for (std::size_t i = 0; i < image.pixels(); ++i) {
-      float* p = image.data.data() + 3 * i;
-      const Rgb c = toDisplay(Rgb(p[0], p[1], p[2]), view_.tone());
-      std::copy_n(&c.x, 3, p);
-    }
-    pictures_.push_back(toQImage(image));
-  }
+  for (const Image& image : look_.thumbnails()) pictures_.push_back(toQImage(image, view_.tone()));
   update();
 }
 
