@@ -31,4 +31,6 @@ endif()
 if(PRT_SANITIZE)
   add_compile_options(-fsanitize=${PRT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PRT_SANITIZE})
+  # GCC's guess about values that are not set yet is wrong in code that the sanitizers have rewritten.
+  add_compile_options(-Wno-maybe-uninitialized)
 endif()
