@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kTestRays = 64;
 constexpr double kNearlyClosed = 0.1;
+constexpr int kFewOpen = kTestRays / 8;
 
 /// Union-find over vertices.
 struct Pieces {
@@ -75,13 +76,60 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> edgesOfVertices(const TriMe
   return edges;
 }
 
+/// [V] mean length of the edges at each vertex: what is smaller, the mesh cannot show.
+std::vector<float> edgeLengths(const TriMesh& mesh) {
+  std::vector<float> sum(mesh.vertexCount(), 0), count(mesh.vertexCount(), 0);
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      for (const std::uint32_t v : {t[k], t[(k + 1) % 3]}) {
+        sum[v] += length(mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]);
+        count[v] += 1;
+      }
+  for (std::size_t v = 0; v < sum.size(); ++v)
+    if (count[v] > 0) sum[v] /= count[v];
+  return sum;
+}
+
+/// What a closer look at a sample asks of its rays.
+class CloserLook {
+ public:
+  CloserLook(const Scene& scene, const SampleSet& samples)
+      : scene_(scene),
+        samples_(samples),
+        inside_(trianglesWithInside(scene)),
+        edges_(samples.vertices > 0 ? edgeLengths(scene.mesh) : std::vector<float>()) {}
+
+  bool buried(std::size_t sample, std::span<const Hit> hits) const {
+    const auto backs = std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
+      return hit.valid() && hit.back && inside_[hit.triangle];
+    });
+    return backs * 4 > kTestRays || covered(sample, hits);
+  }
+
+ private:
+  bool covered(std::size_t sample, std::span<const Hit> hits) const {
+    if (sample >= samples_.vertices || samples_.triangle[sample] == kNone) return false;
+    const std::uint32_t own = scene_.triangleObject[samples_.triangle[sample]];
+    int open = 0, close = 0;
+    for (const Hit& hit : hits) {
+      open += !hit.valid();
+      close += hit.valid() && hit.t < edges_[sample] && scene_.triangleObject[hit.triangle] != own;
+    }
+    return open <= kFewOpen && close * 2 > kTestRays;
+  }
+
+  const Scene& scene_;
+  const SampleSet& samples_;
+  std::vector<std::uint8_t> inside_;
+  std::vector<float> edges_;
+};
+
 }  // namespace
 
 std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, const SampleSet& samples,
                                      std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job) {
   std::vector<std::uint8_t> buried(samples.size(), 0);
-  const std::vector<std::uint8_t> inside = trianglesWithInside(scene);
-  if (std::find(inside.begin(), inside.end(), 1) == inside.end()) return buried;
+  const CloserLook look(scene, samples);
   const RayTable table(RaySpread::Uniform, 1, 0, kTestRays, seed, job);
   parallelFor(job, 0, samples.size(), kBakeTile, [&](std::size_t begin, std::size_t end) {
     WorldRays directions;
@@ -90,10 +138,7 @@ std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, c
       if (!candidates[s]) continue;
       directions.turn(table, bakeScramble(samples, s, seed), bakeFrame(samples, s, RaySpread::Uniform, seed));
       rays.intersectFrom(samples.origin[s], directions.x, directions.y, directions.z, hits);
-      const auto backs = std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
-        return hit.valid() && hit.back && inside[hit.triangle];
-      });
-      buried[s] = backs * 4 > kTestRays;
+      buried[s] = look.buried(s, hits);
     }
   });
   return buried;

@@ -1,7 +1,8 @@
 #pragma once
-// Samples that lie inside of something: a vertex of one object inside another, of a body that cuts
-// itself. What they see is of no use, and would bleed into the visible part of their triangles, so they
-// take the values of their neighbours on the mesh.
+// Samples that lie inside of something, or in a gap under something that is narrower than their mesh: a
+// vertex of one object inside another, of a body that cuts itself, of the ground below a vase's foot. What
+// they see is of no use, and would bleed into the visible part of their triangles, so they take the values
+// of their neighbours on the mesh.
 
 #include "libprt/core/job.h"
 #include "libprt/transport/ray_scene.h"
@@ -17,6 +18,8 @@ namespace prt {
 /// normal meet the back of a surface that has an inside; looks only at those with candidates[s] != 0.
 /// A connected piece of surface has an inside when it is closed or nearly so (its area vectors add up to
 /// less than a tenth of its area) and is not two-sided: under an open sheet nothing is buried.
+/// Marks also vertices that another object covers: at most an eighth is open, and more than half of the rays
+/// meet that object within the mean length of the vertex's edges.
 std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, const SampleSet& samples,
                                      std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job);
 

@@ -559,6 +559,41 @@ TEST(Buried, VerticesInsideAnotherBodyTakeTheirNeighboursValues) {
   }
 }
 
+/// A plate of 1 x 1 whose underside is `gap` over a ground of cells of 0.1.
+Scene plateOverGround(float gap) {
+  const std::vector<SceneObject> objects{
+      {"ground", std::make_shared<TriMesh>(test::grid({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 40, 40)), Mat4(1),
+       lambert(Rgb(0.5f))},
+      {"plate", std::make_shared<TriMesh>(test::box({-0.5f, gap, -0.5f}, {0.5f, gap + 0.2f, 0.5f})), Mat4(1),
+       lambert(Rgb(0.5f))}};
+  return flattenScene(objects);
+}
+
+TEST(Buried, VerticesInAGapNarrowerThanTheirMeshTakeTheirNeighboursValues) {
+  const BakeInput input(plateOverGround(0.02f));
+  const TransferSettings diffuse = settings(256, 1, TransferForm::Diffuse);
+  const DirectTransfer direct = input.direct(directSettings(diffuse, TransferForm::Diffuse));
+  const std::vector<Rgb> e = irradianceOf(input, input.transfer(diffuse), constantLight(Rgb(1)));
+  for (std::size_t v = 0; v < 41 * 41; ++v) {
+    const Vec3& p = input.scene->mesh.positions[v];
+    const bool under = std::max(std::abs(p.x), std::abs(p.z)) < 0.45f;
+    if (under) {
+      EXPECT_EQ(direct.buried.as<std::uint8_t>()[v], 1) << p.x << " " << p.z;
+    }
+    if (std::max(std::abs(p.x), std::abs(p.z)) > 0.55f) {
+      EXPECT_EQ(direct.buried.as<std::uint8_t>()[v], 0) << p.x << " " << p.z;
+    }
+    EXPECT_GT(e[v].x, 0.4f) << p.x << " " << p.z;
+  }
+}
+
+TEST(Buried, AGapThatTheMeshCanShowStaysDark) {
+  const BakeInput input(plateOverGround(0.15f));
+  const TransferSettings diffuse = settings(256, 0, TransferForm::Diffuse);
+  const DirectTransfer direct = input.direct(directSettings(diffuse, TransferForm::Diffuse));
+  for (std::size_t v = 0; v < 41 * 41; ++v) EXPECT_EQ(direct.buried.as<std::uint8_t>()[v], 0) << v;
+}
+
 TEST(Buried, NothingIsBuriedUnderAnOpenSheet) {
   TriMesh mesh = test::grid({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 8, 8);
   append(mesh, test::grid({-2, 0.5f, 2}, {4, 0, 0}, {0, 0, -4}, 8, 8));
