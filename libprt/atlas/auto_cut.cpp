@@ -6,7 +6,10 @@
 #include "libprt/atlas/untangle.h"
 #include "libprt/core/error.h"
 #include "libprt/core/hash.h"
+#include "libprt/core/log.h"
 #include "libprt/core/parallel.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -129,12 +132,7 @@ LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t numbe
   if (guess && options.boundary == ChartBoundary::Free) {
     constexpr int kRounds = 8;
     start = asRigidAsPossible(flat, (*guess)(chart, flat), kRounds, job);
-    // From Tutte's map large charts take long: two parts are quicker.
-    constexpr std::size_t kSmall = 6000;  // triangles
-    if (!untangle(flat, start, job) && chart.faces.size() > kSmall) {
-      laid.failed = true;
-      return laid;
-    }
+    if (!untangle(flat, start, job)) start.clear();  // from Tutte's map, which takes a little longer
   }
   laid.uv = flatten(flat, named, job, start.empty() ? nullptr : &start);
   laid.stretch = stretchOf(flat.positions, laid.uv, flat.triangles);
@@ -162,12 +160,11 @@ class FineCut {
         job_(job) {}
 
   FlatCharts run() {
-    constexpr int kRounds = 12;
-    for (int round = 0;; ++round) {
+    do {
       cut();
       lay();
-      if (!cutAgain(round >= kRounds)) break;
-    }
+      ++round_;
+    } while (cutAgain());
     FlatCharts result{seams_, std::move(charts_), {}, {}};
     for (LaidChart& chart : laid_) {
       result.uv.push_back(std::move(chart.uv));
@@ -177,6 +174,8 @@ class FineCut {
   }
 
  private:
+  static constexpr int kPatience = 4;  // rounds in which joints are taken back one by one
+
   void cut() {
     seams_ = Seams(surface_);
     for (std::uint32_t a = 0; a < complex_.arcs.size(); ++a)
@@ -185,6 +184,7 @@ class FineCut {
           if (!surface_.isBorder(e)) seams_.set(e);
     straightenSeams(surface_, costs_, seams_, job_);
     straightenSeams(surface_, costs_, seams_, job_);
+    for (std::uint32_t e : halved_) seams_.set(e);  // drawn tight they might no longer halve
     charts_ = makeDisks(surface_, seams_, costs_, job_);
   }
 
@@ -219,8 +219,9 @@ class FineCut {
     });
   }
 
-  /// Cuts what failed or stretches too much; false when nothing needs it.
-  bool cutAgain(bool last) {
+  /// Cuts what failed or stretches too much; false when nothing needs it. Every round makes some chart
+  /// smaller and a single triangle has no stretch: it ends, with the bound kept.
+  bool cutAgain() {
     double energy = 0, area = 0;
     std::vector<std::pair<double, std::uint32_t>> worst;
     std::vector<std::uint32_t> again;
@@ -240,31 +241,66 @@ class FineCut {
     for (const auto& [l2, c] : worst) {
       if (l2 <= options_.chartStretch && !(excess > 0)) break;
       again.push_back(c);
-      // Cut in two it will be as good as the mean, or half as bad.
-      const double less = std::max(l2 * l2 - options_.stretch * options_.stretch, 0.5 * (l2 * l2 - 1));
+      // Cut in two it will be as good as the mean, or half as bad; later on no more is hoped for than that.
+      const double half = 0.5 * (l2 * l2 - 1);
+      const double less =
+          round_ > kPatience ? half : std::max(l2 * l2 - options_.stretch * options_.stretch, half);
       excess -= less * charts_.charts[c].area;
     }
     bool changed = false;
-    for (std::uint32_t c : again)
-      if (!last || laid_[c].failed) changed |= undo(c);
-    if (!changed)  // nothing left to cut: from Tutte's map, however long it takes, or the error that names it
-      for (std::uint32_t c : again)
-        if (laid_[c].failed)
-          laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, job_);
-    return changed;
+    for (std::uint32_t c : again) changed |= undo(c) || halve(c);
+    if (changed) return true;
+    for (std::uint32_t c : again)  // a single triangle that cannot be laid flat: the error names it
+      if (laid_[c].failed)
+        laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, job_);
+    return false;
   }
 
-  /// One joint less; where the chart failed or is far off, as many as halve it.
+  /// One joint less; where the chart failed, is far off or has been tried for long, as many as halve it.
   bool undo(std::uint32_t chart) {
     const std::uint32_t cluster = mainCluster(charts_.charts[chart]);
     const bool bad = laid_[chart].failed || laid_[chart].stretch.l2() > 1.5 * options_.chartStretch;
-    const std::size_t enough = bad ? merge_.chartSize(cluster) * 8 / 10 : merge_.chartSize(cluster);
+    const std::size_t size = merge_.chartSize(cluster);
+    const std::size_t enough = round_ > kPatience ? size / 2 : bad ? size * 8 / 10 : size;
     bool changed = false;
     while (merge_.undoLast(cluster)) {
       changed = true;
       if (merge_.chartSize(cluster) <= enough) break;
     }
     return changed;
+  }
+
+  /// Where no joint is left: a cut through the middle, between two far ends.
+  bool halve(std::uint32_t chart) {
+    const std::vector<std::uint32_t>& faces = charts_.charts[chart].faces;
+    if (faces.size() < 2) return false;
+    std::vector<std::uint32_t> order = flood(flood(faces[0]).back());
+    for (std::uint32_t f : order) side_[f] = 0;
+    for (std::size_t i = 0; i < order.size() / 2; ++i) side_[order[i]] = 1;
+    for (std::size_t i = 0; i < order.size() / 2; ++i)
+      for (std::uint32_t half = 3 * order[i]; half < 3 * order[i] + 3; ++half) {
+        const std::uint32_t other = surface_.twin[half];
+        if (other != kNowhere && !seams_[surface_.edge[half]] && side_[other / 3] == 0)
+          halved_.push_back(surface_.edge[half]);
+      }
+    return true;
+  }
+
+  /// Triangles of a chart in the order in which steps over its edges reach them.
+  std::vector<std::uint32_t> flood(std::uint32_t from) {
+    side_.resize(surface_.triangleCount());
+    ++stamp_;
+    std::vector<std::uint32_t> order{from};
+    seen_.resize(surface_.triangleCount(), 0);
+    seen_[from] = stamp_;
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::uint32_t half = 3 * order[i]; half < 3 * order[i] + 3; ++half) {
+        const std::uint32_t other = surface_.twin[half];
+        if (other == kNowhere || seams_[surface_.edge[half]] || seen_[other / 3] == stamp_) continue;
+        seen_[other / 3] = stamp_;
+        order.push_back(other / 3);
+      }
+    return order;
   }
 
   std::uint32_t mainCluster(const Chart& chart) const {
@@ -288,6 +324,11 @@ class FineCut {
   Charts charts_;
   std::vector<LaidChart> laid_;
   std::map<Hash128, LaidChart> known_;
+  int round_ = 0;
+  std::vector<std::uint32_t> halved_;  // edges cut where no joint was left
+  std::vector<std::uint8_t> side_;     // [F]
+  std::vector<std::uint32_t> seen_;    // [F]
+  std::uint32_t stamp_ = 0;
 };
 
 }  // namespace
@@ -316,7 +357,25 @@ FlatCharts autoCut(const Surface& surface, std::span<const float> costs, const A
   merging.chartStretch = 1 + 0.85 * (options.chartStretch - 1);
   ClusterMerge merge(complex, merging);
   merge.run(job);
-  return FineCut(surface, costs, options, clusters, complex, merge, job).run();
+  FlatCharts charts = FineCut(surface, costs, options, clusters, complex, merge, job).run();
+  if (const std::string missed = boundMissed(charts, options.stretch); !missed.empty()) logWarning(missed);
+  return charts;
+}
+
+std::string boundMissed(const FlatCharts& charts, double bound) {
+  const double all = charts.total().l2();
+  if (all <= bound || charts.stretch.empty()) return {};
+  // The chart that adds most to what is over.
+  std::size_t worst = 0;
+  const auto excess = [&](std::size_t c) {
+    const double l2 = charts.stretch[c].l2();
+    return (l2 * l2 - 1) * charts.stretch[c].area;
+  };
+  for (std::size_t c = 1; c < charts.stretch.size(); ++c)
+    if (!(excess(c) <= excess(worst))) worst = c;
+  return fmt::format(
+      "the charts stretch {:.3f} together, the bound is {:.3f}: most of it is in {}, which has {:.3f}", all,
+      bound, chartName(worst), charts.stretch[worst].l2());
 }
 
 FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const FlattenOptions& options, Job& job,

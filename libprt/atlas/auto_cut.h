@@ -10,6 +10,7 @@
 #include "libprt/atlas/flatten.h"
 
 #include <functional>
+#include <string>
 
 namespace prt {
 
@@ -31,7 +32,12 @@ struct FlatCharts {
 /// Called when a chart has been laid flat, from any thread, one at a time.
 using ChartPreview = std::function<void(std::size_t chart, const std::vector<DVec2>& uv)>;
 
-/// `costs` is seamCosts(), or any weights of your own per edge, smaller where a seam is seen less.
+/// One line that names the chart which adds most when the charts together stretch more than a bound; empty
+/// when they keep it.
+std::string boundMissed(const FlatCharts& charts, double bound);
+
+/// `costs` is seamCosts(), or any weights of your own per edge, smaller where a seam is seen less. What
+/// cannot keep to the bound is cut until it does (logged as boundMissed() says should that ever fail).
 /// Deterministic, whatever the number of threads. Throws GeometryError, which names the chart, when one
 /// cannot be laid flat; Cancelled.
 FlatCharts autoCut(const Surface& surface, std::span<const float> costs, const AutoCutOptions& options,

@@ -23,7 +23,7 @@ struct FlattenOptions {
   /// Polygon: indices into the boundary, in any order; empty = `cornerCount` spread by length.
   std::vector<std::uint32_t> corners;
   int cornerCount = 8;
-  int steps = 60;           ///< of Newton's method at most
+  int steps = 100;          ///< of Newton's method at most
   double tolerance = 1e-3;  ///< stops when a step lowers the energy by less than this part of what is over 1
   int sweeps = 2;           ///< of the L2 stretch at the end
   std::string name = "chart";  ///< for errors

@@ -18,6 +18,8 @@ struct Mat2 {
   double a, b, c, d;  // row by row
 };
 
+constexpr double kEasy = 10;  // energy of a triangle, 4 at least, up to which it is taken as it is
+
 constexpr double kReach = 0.3;      // of the repulsion, in mean boundary sides
 constexpr double kRepulsion = 0.1;  // its weight
 
@@ -120,12 +122,42 @@ SymmetricDirichlet::SymmetricDirichlet(const FlatChart& chart, bool fixedBoundar
 }
 
 double SymmetricDirichlet::energy(const std::vector<DVec2>& uv) const {
+  return meanEnergy(rest_, uv);
+}
+
+double SymmetricDirichlet::meanEnergy(const std::vector<Rest>& rest, const std::vector<DVec2>& uv) const {
   double sum = 0;
-  for (std::size_t t = 0; t < rest_.size(); ++t) {
+  for (std::size_t t = 0; t < rest.size(); ++t) {
     const UVec3& c = chart_.triangles[t];
-    sum += rest_[t].area * energyOf(jacobian(rest_[t].gradients, uv[c.x], uv[c.y], uv[c.z]));
+    sum += rest[t].area * energyOf(jacobian(rest[t].gradients, uv[c.x], uv[c.y], uv[c.z]));
   }
   return sum / (4 * restArea_);
+}
+
+void SymmetricDirichlet::ease(const std::vector<DVec2>& uv) {
+  eased_ = rest_;
+  isEased_ = false;
+  for (std::size_t t = 0; t < rest_.size(); ++t) {
+    const UVec3& c = chart_.triangles[t];
+    Rest& rest = eased_[t];
+    const Mat2 j = jacobian(rest.gradients, uv[c.x], uv[c.y], uv[c.z]);
+    if (!(energyOf(j) > kEasy)) continue;
+    isEased_ = true;
+    const Svd v = svdOf(j);
+    // J = U diag(s) V^T becomes U diag(s^share) V^T: the rest of it goes into the reference.
+    double low = 0, high = 1;
+    const double l1 = 2 * std::log(v.s1), l2 = 2 * std::log(std::max(v.s2, 1e-300));
+    for (int i = 0; i < 20; ++i) {
+      const double share = 0.5 * (low + high);
+      (2 * (std::cosh(share * l1) + std::cosh(share * l2)) > kEasy ? high : low) = share;
+    }
+    const double a = std::exp(0.5 * (low - 1) * l1), b = std::exp(0.5 * (low - 1) * l2);  // s^(share - 1)
+    // g' = V diag(s^(share - 1)) V^T g, V^T = R(right).
+    for (DVec2& g : rest.gradients) {
+      const DVec2 q(a * (v.cr * g.x - v.sr * g.y), b * (v.sr * g.x + v.cr * g.y));
+      g = {v.cr * q.x + v.sr * q.y, -v.sr * q.x + v.cr * q.y};
+    }
+  }
 }
 
 void SymmetricDirichlet::assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent) {
@@ -133,7 +165,7 @@ void SymmetricDirichlet::assemble(const std::vector<DVec2>& uv, std::vector<std:
   solver_->clear();
   for (std::size_t t = 0; t < rest_.size(); ++t) {
     const UVec3& c = chart_.triangles[t];
-    const DVec2* g = rest_[t].gradients;
+    const DVec2* g = eased_[t].gradients;
     const double weight = rest_[t].area / restArea_;
     const Svd v = svdOf(jacobian(g, uv[c.x], uv[c.y], uv[c.z]));
     const double d1 = slope(v.s1), d2 = slope(v.s2);
@@ -231,11 +263,14 @@ std::vector<SymmetricDirichlet::Contact> SymmetricDirichlet::contacts(const std:
     for (auto at = std::lower_bound(cells.begin(), cells.end(), std::pair(key, 0u));
          at != cells.end() && at->first == key; ++at) {
       const std::size_t i = at->second, j = (i + 1) % n;
-      // Neighbours along the boundary are near by nature.
-      const std::size_t ahead = (v + n - j) % n, behind = (i + n - v) % n;
-      if (std::min(ahead, behind) < 2 || v == i || v == j) continue;
-      const Contact contact{chart_.rim[v], chart_.rim[i], chart_.rim[j]};
-      if (distanceOf(p, uv[contact.from], uv[contact.to]).distance < reach_) near.push_back(contact);
+      if (v == i || v == j) continue;
+      Contact contact{chart_.rim[v], chart_.rim[i], chart_.rim[j], reach_};
+      // Neighbours along the boundary are near by nature: their reach is part of the side between.
+      if ((v + n - j) % n == 1)
+        contact.reach = std::min(reach_, kReach * glm::distance(p, uv[contact.to]));
+      else if ((i + n - v) % n == 1)
+        contact.reach = std::min(reach_, kReach * glm::distance(p, uv[contact.from]));
+      if (distanceOf(p, uv[contact.from], uv[contact.to]).distance < contact.reach) near.push_back(contact);
     }
   }
   return near;
@@ -245,22 +280,22 @@ double SymmetricDirichlet::repulsion(const std::vector<DVec2>& uv, const std::ve
   double sum = 0;
   for (const Contact& c : near) {
     const double d = distanceOf(uv[c.vertex], uv[c.from], uv[c.to]).distance;
-    if (d >= reach_) continue;
+    if (d >= c.reach) continue;
     if (!(d > 0)) return kInfinite;
-    const double x = reach_ / d - 1;
-    sum += x * x;
+    const double x = c.reach / d - 1;
+    sum += x * x * c.reach * c.reach;
   }
-  return sum * kRepulsion * reach_ * reach_ / restArea_;
+  return sum * kRepulsion / restArea_;
 }
 
 void SymmetricDirichlet::assembleRepulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near,
                                            std::vector<std::array<double, 2>>& descent) {
-  const double weight = 4 * kRepulsion * reach_ * reach_ / restArea_;  // energies are over 4 here
   for (const Contact& c : near) {
     const Near at = distanceOf(uv[c.vertex], uv[c.from], uv[c.to]);
-    const double d = std::max(at.distance, 1e-6 * reach_), x = reach_ / d - 1;
-    const double first = -2 * x * reach_ / (d * d);
-    const double second = 2 * reach_ * reach_ / (d * d * d * d) + 4 * x * reach_ / (d * d * d);
+    const double reach = c.reach, d = std::max(at.distance, 1e-6 * reach), x = reach / d - 1;
+    const double first = -2 * x * reach / (d * d);
+    const double second = 2 * reach * reach / (d * d * d * d) + 4 * x * reach / (d * d * d);
+    const double weight = 4 * kRepulsion * reach * reach / restArea_;  // energies are over 4 here
     // The three points' shares of the gradient; three times their own blocks bound the whole Hessian.
     const std::pair<std::uint32_t, double> shares[3] = {{c.vertex, 1.0}, {c.from, at.t - 1}, {c.to, -at.t}};
     for (const auto& [vertex, share] : shares) {
@@ -278,9 +313,11 @@ void SymmetricDirichlet::assembleRepulsion(const std::vector<DVec2>& uv, const s
 double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   const std::size_t unknowns = std::size_t(
       std::count_if(unknown_.begin(), unknown_.end(), [](std::uint32_t u) { return u != kNowhere; }));
-  const double before = energy_ >= 0 ? energy_ : energy(uv);
+  const double whole = energy_ >= 0 ? energy_ : energy(uv);
   energy_ = -1;
-  if (unknowns == 0) return before;
+  ease(uv);
+  const double before = isEased_ ? meanEnergy(eased_, uv) : whole;
+  if (unknowns == 0) return whole;
   std::vector<std::array<double, 2>> solution(unknowns, {0.0, 0.0});
   assemble(uv, solution);
   std::vector<Contact> near;
@@ -302,7 +339,7 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   for (double shift = 1e-9 * trace / double(2 * unknowns);; shift *= 100) {
     for (std::uint32_t u = 0; u < unknowns; ++u) solver_->addDiagonal(u, {shift, 0, 0, shift});
     if (solver_->factorise(job)) break;
-    if (!(shift < trace)) return before;
+    if (!(shift < trace)) return whole;
   }
   solver_->solve(solution);
   std::vector<DVec2> direction(uv.size(), DVec2(0));
@@ -319,16 +356,16 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   constexpr int kHalvings = 24;
   for (int i = 0; i < kHalvings; ++i, length *= 0.5) {
     for (std::size_t v = 0; v < uv.size(); ++v) next[v] = uv[v] + direction[v] * length;
-    const double after = energy(next);
+    const double after = meanEnergy(eased_, next);
     const double least = before + repelled - 1e-4 * 0.25 * length * std::max(decrease, 0.0);
     if (!(after < least)) continue;
     if (!fixedBoundary_ && !(after + repulsion(next, contacts(next)) < least)) continue;
     if (!flippedTriangles(chart_, next).empty() || (!fixedBoundary_ && !boundaryIsSimple(next))) continue;
     uv = std::move(next);
-    energy_ = after;
-    return after;
+    energy_ = isEased_ ? energy(uv) : after;
+    return energy_;
   }
-  return before;
+  return whole;
 }
 
 }  // namespace prt

@@ -32,18 +32,24 @@ class SymmetricDirichlet {
   };
   struct Contact {  ///< a boundary vertex near a boundary side
     std::uint32_t vertex, from, to;
+    double reach;  ///< distance from which on they repel
   };
   std::vector<Contact> contacts(const std::vector<DVec2>& uv) const;
   double repulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near) const;
   void assembleRepulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near,
                          std::vector<std::array<double, 2>>& descent);
   void assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent);
+  /// Eases the references of triangles that are far off: of their distortion only so much is taken on in one
+  /// step that Newton's model still holds (Liu et al. 2018, "Progressive parameterizations").
+  void ease(const std::vector<DVec2>& uv);
+  double meanEnergy(const std::vector<Rest>& rest, const std::vector<DVec2>& uv) const;
   double largestStep(const std::vector<DVec2>& uv, const std::vector<DVec2>& direction) const;
   bool boundaryIsSimple(const std::vector<DVec2>& uv) const;
 
   const FlatChart& chart_;
   bool fixedBoundary_;
-  std::vector<Rest> rest_;
+  std::vector<Rest> rest_, eased_;
+  bool isEased_ = false;
   double restArea_ = 0;
   std::vector<std::uint32_t> unknown_;  // [n]
   std::vector<std::uint32_t> slot_;     // [e] edge of the solver, kNowhere where an end is fixed

@@ -170,6 +170,28 @@ TEST(AutoCut, ASmallerBoundOnTheStretchMeansMoreSeam) {
   EXPECT_THROW(cut(bird, 1.0), ValueError);
 }
 
+TEST(AutoCut, CutsThroughClustersWhereTheyStretchTooMuch) {
+  // Eight patches of a sphere cannot have so little stretch, however they are joined.
+  Job job;
+  const TriMesh ball = makeIcosphere({.subdivisions = 3});
+  const Surface surface(ball, job);
+  AutoCutOptions options;
+  options.clusters = 8;
+  options.stretch = 1.0005;
+  const FlatCharts charts = autoCut(surface, seamCosts(surface, {}, job), options, job);
+  expectGood(ball, charts, 1.0005);
+  EXPECT_GT(charts.charts.charts.size(), 8u);
+}
+
+TEST(AutoCut, ABoundThatIsMissedNamesTheChart) {
+  FlatCharts charts;
+  charts.stretch = {{1.0, 1.0, 1.0, 1.0}, {0.5 * 1.44, 0.5, 0.5, 2.0}, {1.02, 1.0, 1.0, 1.1}};
+  EXPECT_TRUE(boundMissed(charts, 1.10).empty());
+  const std::string line = boundMissed(charts, 1.03);
+  EXPECT_NE(line.find("chart 2, which has 1.200"), std::string::npos) << line;
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+}
+
 TEST(AutoCut, DoesNotDependOnTheNumberOfThreads) {
   const TriMesh vase = makeVase({});
   setThreadCount(1);
@@ -206,8 +228,11 @@ TEST(FlattenCharts, NamesTheFirstChartThatIsNoDisk) {
 TEST(AutoCut, RealMeshesStayBelowTheBound) {
   PRT_NEEDS_SHARED_DATA();
   Job job;
-  for (const auto& [file, most] : std::initializer_list<std::pair<const char*, std::size_t>>{
-           {"meshes/spot.obj", 9}, {"meshes/bunny_3k.off", 17}, {"meshes/blobby.off", 40}}) {
+  for (const auto& [file, most] :
+       std::initializer_list<std::pair<const char*, std::size_t>>{{"meshes/spot.obj", 9},
+                                                                  {"meshes/bunny_3k.off", 17},
+                                                                  {"meshes/blobby.off", 40},
+                                                                  {"meshes/armadillo.off", 84}}) {
     const TriMesh mesh = loadMesh(test::sharedData(file), {}, job);
     const FlatCharts charts = cut(mesh);
     expectGood(mesh, charts);

@@ -111,6 +111,12 @@ TEST(Flatten, ADeepCapIsUnfoldedWithoutFlips) {
   EXPECT_LT(flatL2(chartOf(test::sphereCap(48, 30, -0.95))), 1.7);
 }
 
+TEST(Flatten, DeepChartsOpenUpAndStripsSlideAlongThemselves) {
+  // In Tutte's map the far end of a long strip is a millionth of its size.
+  EXPECT_NEAR(flatL2(chartOf(makePlane({.width = 1, .depth = 40, .columns = 4, .rows = 160}))), 1.0, 1e-3);
+  EXPECT_NEAR(flatL2(chartOf(test::spiral(2.5, 240))), 1.0, 1e-2);
+}
+
 TEST(Flatten, ASlitSphereAndACutTorusStayInjective) {
   EXPECT_LT(flatL2(chartOf(makeIcosphere({.subdivisions = 3}))), 2.5);
   EXPECT_LT(flatL2(chartOf(makeTorus({.segments = 48, .sides = 20}))), 1.4);

@@ -90,6 +90,26 @@ inline TriMesh flatDisk(int segments, int rings) {
   return mesh;
 }
 
+/// A flat strip facing +Y that winds about itself, `turns` times, with a gap of a tenth of its width: deep,
+/// and nearly touching itself wherever it is laid flat.
+inline TriMesh spiral(double turns, int cells, int across = 2) {
+  TriMesh mesh;
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= across; ++j) {
+      const double angle = 2 * kPi * turns * i / cells;
+      const double r = 1 + 1.1 * angle / (2 * kPi) + double(j) / across;
+      mesh.positions.push_back({float(r * std::cos(angle)), 0, float(-r * std::sin(angle))});
+    }
+  const auto v = [&](int i, int j) { return std::uint32_t(i * (across + 1) + j); };
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < across; ++j) {
+      mesh.triangles.push_back({v(i, j), v(i, j + 1), v(i + 1, j + 1)});
+      mesh.triangles.push_back({v(i, j), v(i + 1, j + 1), v(i + 1, j)});
+    }
+  mesh.normals.assign(mesh.positions.size(), Vec3(0, 1, 0));
+  return mesh;
+}
+
 /// The part of a unit sphere above `lowest` (height of its rim).
 inline TriMesh sphereCap(int segments, int rings, double lowest = 0) {
   TriMesh mesh = flatDisk(segments, rings);
