@@ -82,6 +82,7 @@ class Packer {
 
   std::vector<ChartPlacement> run() {
     job_.begin("packing", 8, "tries");
+    if (order_.empty()) return {locked_.begin(), locked_.end()};
     // Area of the charts as part of the square, by bisection.
     double fits = 0, fails = 0.95 - lockedArea_;
     std::vector<ChartPlacement> best;

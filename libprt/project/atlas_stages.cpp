@@ -2,6 +2,7 @@
 
 #include "libprt/atlas/geometry_image.h"
 #include "libprt/core/error.h"
+#include "libprt/project/hand_cuts.h"
 #include "libprt/project/products.h"
 
 #include <fmt/format.h>
@@ -53,57 +54,22 @@ double numberOf(const nlohmann::json& meta, const char* name, const char* stage)
   return found->get<double>();
 }
 
-/// Seams drawn by hand on the meshes of the objects, over the surface of the whole scene.
-Seams drawnSeams(const Recipe& recipe, const MeshProduct& meshes, const Surface& surface) {
-  Seams seams(surface);
-  std::size_t first = 0;
-  for (std::size_t o = 0; o < recipe.objects.size(); ++o) {
-    // The object's vertex numbers, moved to where they are in the scene.
-    std::string shifted;
-    const std::string& text = recipe.objects[o].seams;
-    for (std::size_t i = 0; i < text.size();) {
-      std::uint64_t number = 0;
-      const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), number);
-      if (error != std::errc()) {
-        shifted += text[i++];
-        continue;
-      }
-      if (number >= meshes.meshes[o]->vertexCount())
-        throw ValueError("the mesh has no vertex " + std::to_string(number),
-                         "objects[" + std::to_string(o) + "].seams", "draw the cut anew");
-      shifted += std::to_string(first + number);
-      i = std::size_t(end - text.data());
-    }
-    for (std::uint32_t e : seamsFromText(surface, shifted).edges()) seams.set(e);
-    first += meshes.meshes[o]->vertexCount();
+/// Charts that were put by hand must not lie over others or leave the square.
+void checkPlaces(const FlatCharts& charts, const Atlas& atlas) {
+  std::vector<std::vector<DVec2>> outlines;
+  for (std::size_t c = 0; c < charts.uv.size(); ++c) {
+    std::vector<DVec2>& outline = outlines.emplace_back();
+    for (const std::uint32_t v : charts.charts.charts[c].loops[0]) outline.push_back(charts.uv[c][v]);
   }
-  return seams;
-}
-
-FlattenOptions flattenOptions(const ChartsRecipe& charts) {
-  FlattenOptions options;
-  options.boundary = ChartBoundary(int(charts.boundary));
-  options.cornerCount = charts.corners;
-  return options;
-}
-
-AtlasFacts factsOf(const TriMesh& mesh, const Surface& surface, const Atlas& atlas, Job& job) {
-  AtlasFacts facts;
-  facts.charts = atlas.chartCount;
-  const StretchSum stretch = atlasStretch(mesh.positions, mesh.triangles, atlas);
-  facts.l2 = stretch.l2();
-  facts.lInf = stretch.lInf();
-  double seam = 0;
-  for (std::uint32_t e = 0; e < surface.edgeCount(); ++e) {
-    const std::uint32_t half = surface.halfOf[e], other = surface.twin[half];
-    if (other == kNowhere) continue;
-    const auto corner = [&](std::uint32_t h) { return atlas.uvTriangles[h / 3][int(h % 3)]; };
-    if (corner(half) != corner(nextHalf(other)) || corner(nextHalf(half)) != corner(other))
-      seam += surface.length(e);
-  }
-  facts.seam = seam / std::sqrt(surface.totalArea());
-  facts.filled = makeGeometryImage(atlas, atlas.size, 0, job).filled();
-  return facts;
+  const auto problems = placementProblems(outlines, atlas.placements, atlas.size);
+  if (problems.empty()) return;
+  const PlacementProblem& first = problems.front();
+  const std::string more =
+      problems.size() > 1 ? fmt::format("; {} places in all", problems.size()) : std::string();
+  throw GeometryError(first.chart == first.other ? "leaves the square" + more
+                                                 : fmt::format("lies over chart {}{}", first.other + 1, more),
+                      fmt::format("chart {}", first.chart + 1),
+                      "move it, or take its place from objects[].charts");
 }
 
 /// A mesh's own coordinates, refused where they are no map.
@@ -131,41 +97,82 @@ ProductPtr makeChartsStage(StageRun& run) {
   const Recipe& recipe = run.recipe();
   auto product = std::make_shared<ChartsProduct>();
   if (recipe.charts.mode == ChartsMode::Imported) return product;
-  const TriMesh& mesh = run.input<SceneProduct>("scene")->scene->mesh;
-  const Surface surface(mesh, run.job());
+  const Scene& scene = *run.input<SceneProduct>("scene")->scene;
+  const Surface surface(scene.mesh, run.job());
+  const std::vector<ChartSettings> settings = chartSettingsOf(recipe, scene);
   if (recipe.charts.mode == ChartsMode::Manual) {
-    const Seams seams = drawnSeams(recipe, *run.input<MeshProduct>("mesh"), surface);
-    product->charts =
-        std::make_shared<FlatCharts>(flattenCharts(surface, seams, flattenOptions(recipe.charts), run.job()));
+    product->charts = std::make_shared<FlatCharts>(flattenCharts(
+        surface, drawnSeams(recipe, scene, surface), flattenOptionsOf(recipe.charts), settings, run.job()));
     return product;
   }
-  AutoCutOptions options;
-  options.stretch = std::max(1.001, double(recipe.charts.stretch));  // 1 itself only a plane can have
-  options.chartStretch = std::max(1.30, 1 + 2 * (options.stretch - 1));
+  const AutoCutOptions options = autoCutOptionsOf(recipe.charts);
   const std::vector<float> costs = seamCosts(
       surface, {.followCreases = recipe.charts.creases, .concaveBonus = 0.2 * recipe.charts.creases},
       run.job());
   FlatCharts charts = autoCut(surface, costs, options, run.job());
-  if (recipe.charts.boundary == ChartsBoundary::Polygon)
-    charts = flattenCharts(surface, charts.seams, flattenOptions(recipe.charts), run.job());
+  const bool corners =
+      std::any_of(settings.begin(), settings.end(), [](const ChartSettings& c) { return c.hasCorners(); });
+  if (corners || recipe.charts.boundary == ChartsBoundary::Polygon)
+    charts = flattenCharts(surface, charts.seams, flattenOptionsOf(recipe.charts), settings, run.job());
   product->charts = std::make_shared<FlatCharts>(std::move(charts));
   return product;
 }
 
+FlattenOptions flattenOptionsOf(const ChartsRecipe& charts) {
+  FlattenOptions options;
+  options.boundary = ChartBoundary(int(charts.boundary));
+  options.cornerCount = charts.corners;
+  return options;
+}
+
+AtlasFacts atlasFacts(const TriMesh& mesh, const Surface& surface, const Atlas& atlas, Job& job) {
+  AtlasFacts facts;
+  facts.charts = atlas.chartCount;
+  const StretchSum stretch = atlasStretch(mesh.positions, mesh.triangles, atlas);
+  facts.l2 = stretch.l2();
+  facts.lInf = stretch.lInf();
+  facts.seam =
+      seamLength(surface, seamsOfCoordinates(surface, atlas.uvTriangles)) / std::sqrt(surface.totalArea());
+  facts.filled = makeGeometryImage(atlas, atlas.size, 0, job).filled();
+  return facts;
+}
+
+AutoCutOptions autoCutOptionsOf(const ChartsRecipe& charts) {
+  AutoCutOptions options;
+  options.stretch = std::max(1.001, double(charts.stretch));  // 1 itself only a plane can have
+  options.chartStretch = std::max(1.30, 1 + 2 * (options.stretch - 1));
+  return options;
+}
+
+AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
+                       std::span<const ChartSettings> settings) {
+  AtlasOptions options{{recipe.atlas.size, recipe.atlas.gutter, recipe.atlas.turns}, {}, {}};
+  options.locked = parsePlacements(recipe.atlas.placements, charts.charts.charts.size());
+  for (std::size_t c = 0; c < settings.size(); ++c) {
+    options.weights.push_back(settings[c].weight);
+    if (!settings[c].place) continue;
+    options.locked.resize(settings.size());
+    options.locked[c] = *settings[c].place;
+  }
+  return options;
+}
+
 ProductPtr makeAtlasStage(StageRun& run) {
   const Recipe& recipe = run.recipe();
-  const TriMesh& mesh = run.input<SceneProduct>("scene")->scene->mesh;
+  const Scene& scene = *run.input<SceneProduct>("scene")->scene;
+  const TriMesh& mesh = scene.mesh;
   const PackOptions pack{recipe.atlas.size, recipe.atlas.gutter, recipe.atlas.turns};
   auto product = std::make_shared<AtlasProduct>();
   const auto charts = run.input<ChartsProduct>("charts")->charts;
   if (!charts) {
     product->atlas = std::make_shared<Atlas>(imported(mesh, pack, run.job()));
   } else {
-    AtlasOptions options{pack, {}, {}};
-    options.locked = parsePlacements(recipe.atlas.placements, charts->charts.charts.size());
+    const AtlasOptions options =
+        packingOf(recipe, *charts, settingsOfCharts(charts->charts, chartSettingsOf(recipe, scene)));
     product->atlas = std::make_shared<Atlas>(packAtlas(*charts, options, run.job()));
+    if (!options.locked.empty()) checkPlaces(*charts, *product->atlas);
   }
-  product->facts = factsOf(mesh, Surface(mesh, run.job()), *product->atlas, run.job());
+  product->facts = atlasFacts(mesh, Surface(mesh, run.job()), *product->atlas, run.job());
   return product;
 }
 

@@ -2,6 +2,7 @@
 // The stages that unfold the scene: charts laid flat, and the atlas that they are packed into.
 
 #include "libprt/atlas/atlas.h"
+#include "libprt/atlas/chart_settings.h"
 #include "libprt/project/export.h"
 #include "libprt/project/stages.h"
 
@@ -38,6 +39,17 @@ struct AtlasProduct : Product {
   ProductData save() const override;
   static ProductPtr load(ProductData data);
 };
+
+/// How the recipe wants charts laid flat.
+FlattenOptions flattenOptionsOf(const ChartsRecipe& charts);
+/// How the recipe wants the surface cut by itself.
+AutoCutOptions autoCutOptionsOf(const ChartsRecipe& charts);
+/// Of an atlas for a mesh and the surface made of it.
+AtlasFacts atlasFacts(const TriMesh& mesh, const Surface& surface, const Atlas& atlas, Job& job);
+/// How the recipe wants charts packed; `settings` are settingsOfCharts(). Places of single charts win over
+/// those of atlas.placements.
+AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
+                       std::span<const ChartSettings> settings);
 
 ProductPtr makeChartsStage(StageRun& run);
 ProductPtr makeAtlasStage(StageRun& run);

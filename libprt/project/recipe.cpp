@@ -1,5 +1,6 @@
 #include "libprt/project/recipe.h"
 
+#include "libprt/atlas/chart_settings.h"
 #include "libprt/core/error.h"
 #include "libprt/project/recipe_table.h"
 
@@ -26,6 +27,13 @@ void checkRecipe(const Recipe& recipe, const std::string& where) {
   if (std::none_of(recipe.objects.begin(), recipe.objects.end(),
                    [](const ObjectRecipe& o) { return o.visible; }))
     throw ValueError("hides every object", at("objects[0].visible"), "show one at least");
+  for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
+    try {
+      chartSettingsFromText(recipe.objects[i].charts);
+    } catch (const ValueError& error) {
+      throw ValueError(error.problem(), at("objects[" + std::to_string(i) + "].charts"), error.fix());
+    }
+  }
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     const Vec3& s = recipe.objects[i].transform.scale;
     if (s.x * s.y * s.z == 0)

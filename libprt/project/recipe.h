@@ -56,6 +56,9 @@ struct ObjectRecipe {
   TransformRecipe transform;
   Material material;
   std::string seams;  ///< cuts by hand: chains of the mesh's vertex numbers, "4 8 15;16 23" (atlas/seams.h)
+  /// Corners, weights and places of single charts, each named by one of the mesh's triangles:
+  /// "12 weight=2 corners=5;40 place=0.5,0.5,30,0.2 locked" (atlas/chart_settings.h).
+  std::string charts;
   bool operator==(const ObjectRecipe&) const = default;
 };
 

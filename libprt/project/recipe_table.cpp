@@ -80,6 +80,16 @@ const std::vector<Row<ObjectRecipe>> kObject{
      {},
      kCostCharts,
      "Cuts drawn by hand, for charts.mode=manual: chains of the mesh's vertex numbers, '4 8 15;16 23 42'."},
+    {"charts",
+     [](ObjectRecipe& o) -> FieldRef { return &o.charts; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostAtlas,
+     "Settings of single charts, each named by a triangle in it: '12 weight=2 corners=5;40 "
+     "place=U,V,DEGREES,SCALE locked'. Corners may be places along the boundary, 0,0.2,0.7."},
 };
 
 const std::vector<Row<MeshRecipe>> kMesh{

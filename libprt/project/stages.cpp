@@ -6,6 +6,7 @@
 #include "libprt/mesh/repair.h"
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/errors.h"
+#include "libprt/project/hand_cuts.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 
@@ -88,6 +89,7 @@ std::vector<Stage> makeStages() {
        .makes = "the surface cut into disks, each laid flat",
        .inputs = {"mesh", "scene"},
        .reads = {"objects[].seams", "charts"},
+       .derives = cornersText,
        .wanted = onlyWhenAsked,
        .previews = false,
        .make = makeChartsStage,
@@ -95,7 +97,7 @@ std::vector<Stage> makeStages() {
       {.name = "atlas",
        .makes = "all charts side by side in one square",
        .inputs = {"scene", "charts"},
-       .reads = {"atlas"},
+       .reads = {"objects[].charts", "atlas"},
        .wanted = onlyWhenAsked,
        .previews = false,
        .make = makeAtlasStage,

@@ -6,6 +6,7 @@
 #include "libprt/mesh/generate.h"
 #include "libprt/mesh/mesh_writer.h"
 #include "libprt/mesh/repair.h"
+#include "libprt/project/hand_cuts.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
 #include "tests/project/toy_stages.h"
@@ -161,6 +162,63 @@ TEST(AtlasStages, PolygonsHaveTheCornersAskedFor) {
   EXPECT_GE(atlas->facts.l2, 1.0);
   Job job;
   EXPECT_TRUE(overlappingTexels(*atlas->atlas, 256, job).empty());
+}
+
+TEST(AtlasStages, SettingsOfSingleChartsAreUsedAndChecked) {
+  Recipe recipe = small("builtin:torus");
+  const auto before = bake(recipe);
+  const auto packed = before.get<AtlasProduct>("atlas")->atlas;
+  const Charts& charts = before.get<ChartsProduct>("charts")->charts->charts;
+  const std::string last = std::to_string(charts.charts.back().faces.back());
+  recipe.objects[0].charts = last + " place=0.5,0.5,0,0.01";
+  const auto atlas = bake(recipe).get<AtlasProduct>("atlas")->atlas;
+  EXPECT_EQ(atlas->placements.back().offset, DVec2(0.5));
+  EXPECT_EQ(atlas->placements.back().scale, 0.01);
+  recipe.objects[0].charts = last + " place=3,0.5,0,0.01";
+  try {
+    bake(recipe);
+    FAIL();
+  } catch (const GeometryError& error) {
+    EXPECT_NE(error.problem().find("leaves the square"), std::string::npos);
+    EXPECT_EQ(error.where(), "chart " + std::to_string(charts.charts.size()));
+  }
+  recipe.objects[0].charts = "99999999 weight=2";
+  EXPECT_THROW(bake(recipe), ValueError);
+  recipe.objects[0].charts = "1 weight=-2";
+  EXPECT_THROW(checkRecipe(recipe, ""), ValueError);
+}
+
+TEST(AtlasStages, PlacingAChartDoesNotLayItFlatAnew) {
+  Recipe recipe = small("builtin:vase");
+  const auto keyOf = [](const Recipe& r, const char* stage) {
+    return Pipeline(nullptr, {}).keys(r).at(stage);
+  };
+  const std::string charts = keyOf(recipe, "charts"), atlas = keyOf(recipe, "atlas");
+  recipe.objects[0].charts = "0 weight=2 place=0.5,0.5,0,0.1";
+  EXPECT_EQ(keyOf(recipe, "charts"), charts);
+  EXPECT_NE(keyOf(recipe, "atlas"), atlas);
+  recipe.objects[0].charts = "0 corners=5";
+  EXPECT_NE(keyOf(recipe, "charts"), charts);
+}
+
+TEST(AtlasStages, CutsOfAnObjectBehindAHiddenOneStayItsOwn) {
+  Recipe recipe = small("builtin:vase");
+  recipe.charts.mode = ChartsMode::Manual;
+  const Scene alone = *bake([] {
+                         Recipe r = small("builtin:vase");
+                         return r;
+                       }())
+                           .get<SceneProduct>("scene")
+                           ->scene;
+  Job job;
+  const Surface surface(alone.mesh, job);
+  Seams seams(surface);
+  makeDisks(surface, seams, seamCosts(surface, {}, job), job);
+  recipe.objects[0].seams = seamsOfObject(alone, surface, seams, 0);
+  recipe.objects.insert(recipe.objects.begin(), recipe.objects[0]);
+  recipe.objects[0].visible = false;
+  recipe.objects[0].seams = "0 1";
+  EXPECT_EQ(bake(recipe).get<AtlasProduct>("atlas")->facts.charts, 1u);
 }
 
 TEST(AtlasPlacements, RoundTripAndAreChecked) {

@@ -1,4 +1,6 @@
 #include "libprt/project/recipe.h"
+
+#include "libprt/atlas/chart_settings.h"
 #include "libprt/core/error.h"
 #include "libprt/project/recipe_table.h"
 
@@ -26,12 +28,26 @@ std::string errorOf(const std::function<void()>& action) {
   return "no error";
 }
 
+/// Settings of charts, as text.
+std::string randomCharts() {
+  std::vector<ChartSettings> charts(std::size_t(*rc::gen::inRange(0, 4)));
+  for (ChartSettings& chart : charts) {
+    chart.face = std::uint32_t(*rc::gen::inRange(0, 1000));
+    chart.weight = double(*rc::gen::inRange(1, 1000)) / 100;
+    if (*rc::gen::arbitrary<bool>()) chart.corners = {0, 0.25, 0.5, 0.75};
+    if (*rc::gen::arbitrary<bool>()) chart.place = ChartPlacement{0.25, 0, {0.5, 0.125}, true};
+    chart.locked = *rc::gen::arbitrary<bool>();
+  }
+  return chartSettingsToText(charts);
+}
+
 /// A random value that a parameter allows.
 json randomValue(const Parameter& p) {
   const auto number = [&] {
     const double low = p.low == p.high ? -1000 : p.low, high = p.low == p.high ? 1000 : p.high;
     return double(float(low + (high - low) * double(*rc::gen::inRange(0, 1 << 20)) / (1 << 20)));
   };
+  if (p.path == "objects[].charts") return randomCharts();
   switch (p.type) {
     case ParameterType::Boolean:
       return *rc::gen::arbitrary<bool>();

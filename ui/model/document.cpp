@@ -189,7 +189,8 @@ QString editName(const Recipe& recipe, const QString& path, const QString& calle
 std::size_t bytesOf(const Recipe& recipe) {
   std::size_t bytes = sizeof(Recipe);
   for (const ObjectRecipe& o : recipe.objects)
-    bytes += sizeof o + o.name.capacity() + o.mesh.path.capacity() + o.material.name.capacity();
+    bytes += sizeof o + o.name.capacity() + o.mesh.path.capacity() + o.material.name.capacity() +
+             o.seams.capacity() + o.charts.capacity();
   for (const LightRecipe& l : recipe.lights)
     bytes += sizeof l + l.name.capacity() + l.path.capacity() + l.mapping.capacity();
   for (const CameraRecipe& c : recipe.cameras) bytes += sizeof c + c.name.capacity();
