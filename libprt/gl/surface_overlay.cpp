@@ -14,6 +14,7 @@ namespace prt::gl {
 namespace {
 
 constexpr unsigned kPlacesBinding = 0;
+enum PaintBinding : unsigned { kPositions, kNormals, kCorners, kColors, kCoordinates };
 constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUnit = 3;
 
 /// Distances along the optical axis that hold the whole box; never nearer than a thousandth of it.
@@ -48,12 +49,17 @@ void fit(Framebuffer& target, const OverlayPicture& picture, PixelFormat format,
 SurfaceOverlay::SurfaceOverlay()
     : surfaceProgram_(Program::fromLibrary("overlay_surface.vert", "overlay_surface.frag",
                                            "#define SHADE_LEAST " + std::to_string(overlayShade(0)) + "\n")),
+      paintProgram_(Program::fromLibrary("overlay_paint.vert", "overlay_paint.frag",
+                                         "#define SHADE_LEAST " + std::to_string(overlayShade(0)) +
+                                             "\n#define DARK_SQUARE " + std::to_string(kDarkSquare) + "\n")),
       marksProgram_(Program::fromLibrary("overlay_marks.vert", "overlay_marks.frag")),
       composeProgram_(Program::fromLibrary("fullscreen.vert", "overlay_compose.frag")),
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
-  for (Buffer* buffer : {&positions_, &normals_, &values_, &indices_, &points_, &edges_, &triangles_})
+  for (Buffer* buffer : {&positions_, &normals_, &values_, &indices_, &paintColors_, &paintUv_})
     *buffer = Buffer::create();
+  for (Uploaded* each : {&marks_, &seams_})
+    for (Buffer* buffer : {&each->points, &each->edges, &each->triangles}) *buffer = Buffer::create();
   const auto colors = magnitudeColors();
   Image scale(int(colors.size()), 1, 4);
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -79,6 +85,7 @@ void SurfaceOverlay::setMesh(const TriMesh& mesh) {
   normals_.upload(std::span<const Vec3>(mesh.normals));
   indices_.upload(std::span<const UVec3>(mesh.triangles));
   setValues({});
+  setPaint({});
   meshArray_.floats(0, positions_, 3);
   meshArray_.floats(1, normals_, 3);
   meshArray_.floats(2, values_, 1);
@@ -96,28 +103,48 @@ void SurfaceOverlay::setValues(std::span<const float> values) {
   values_.upload(hasValues_ ? values : std::span<const float>(none));
 }
 
+void SurfaceOverlay::setPaint(const SurfacePaint& paint) {
+  checkPaint(paint, std::size_t(indexCount_) / 3);
+  hasPaint_ = !paint.colors.empty();
+  squares_ = hasPaint_ && !paint.uv.empty() ? paint.squares : 0;
+  if (hasPaint_) paintColors_.upload(std::span<const Rgb>(paint.colors));
+  if (squares_ > 0) paintUv_.upload(std::span<const Vec2>(paint.uv));
+  seams_.upload(paint.seams);
+}
+
 void SurfaceOverlay::setMarks(const SurfaceMarks& marks) {
-  pointCount_ = int(marks.points.size());
-  edgeCount_ = int(marks.edges.size() / 2);
-  triangleCount_ = int(marks.triangles.size() / 3);
-  points_.upload(std::span<const Vec3>(marks.points));
-  edges_.upload(std::span<const Vec3>(marks.edges));
-  triangles_.upload(std::span<const Vec3>(marks.triangles));
-  markColor_ = marks.color;
+  marks_.upload(marks);
+}
+
+void SurfaceOverlay::Uploaded::upload(const SurfaceMarks& marks) {
+  pointCount = int(marks.points.size());
+  edgeCount = int(marks.edges.size() / 2);
+  triangleCount = int(marks.triangles.size() / 3);
+  points.upload(std::span<const Vec3>(marks.points));
+  edges.upload(std::span<const Vec3>(marks.edges));
+  triangles.upload(std::span<const Vec3>(marks.triangles));
+  color = marks.color;
+  hidden = marks.hidden;
 }
 
 void SurfaceOverlay::draw(const OverlayPicture& picture, unsigned framebuffer) {
   if (empty() || picture.width < 1 || picture.height < 1) return;
   const int samples = supportedSamples(picture.grid * picture.grid);
   drawSurface(picture, samples);
-  drawMarks(picture);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(0, 0, picture.width, picture.height);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  compose(samples);
-  glDisable(GL_BLEND);
+  bool showSurface = hasValues_ || hasPaint_;
+  // One layer of marks after the other; the surface's colours lie under the first.
+  for (const Uploaded* each : {&seams_, &marks_}) {
+    if (each->empty() && !(showSurface && each == &marks_)) continue;
+    drawMarks(picture, *each);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, picture.width, picture.height);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    compose(samples, showSurface, each->color);
+    glDisable(GL_BLEND);
+    showSurface = false;
+  }
   glBindVertexArray(0);
   glUseProgram(0);
   checkErrors("drawing the overlay");
@@ -136,20 +163,38 @@ void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
   fit(surface_, picture, PixelFormat::Rgba8, true, samples);
   surface_.bind();
   beginSurfaces();
-  surfaceProgram_.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
-  surfaceProgram_.set("eye", picture.camera.eye);
-  surfaceProgram_.set("axis", picture.camera.axes().normal);
-  surfaceProgram_.set("parallel", picture.camera.orthographic ? 1 : 0);
+  if (indexCount_ == 0) return;
+  if (hasPaint_) {
+    setView(paintProgram_, picture);
+    paintProgram_.set("squares", squares_);
+    positions_.bindStorage(kPositions);
+    normals_.bindStorage(kNormals);
+    indices_.bindStorage(kCorners);
+    paintColors_.bindStorage(kColors);
+    if (squares_ > 0) paintUv_.bindStorage(kCoordinates);
+    paintProgram_.use();
+    glBindVertexArray(emptyArray_.id());
+    glDrawArrays(GL_TRIANGLES, 0, indexCount_);
+    return;
+  }
+  setView(surfaceProgram_, picture);
   scale_.bind(kScaleUnit);
   surfaceProgram_.use();
   glBindVertexArray(meshArray_.id());
-  if (indexCount_ > 0) glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
+}
+
+void SurfaceOverlay::setView(Program& program, const OverlayPicture& picture) const {
+  program.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
+  program.set("eye", picture.camera.eye);
+  program.set("axis", picture.camera.axes().normal);
+  program.set("parallel", picture.camera.orthographic ? 1 : 0);
 }
 
 // The strongest mark in each pixel: the order of marks does not matter, and what overlaps does not add up.
-void SurfaceOverlay::drawMarks(const OverlayPicture& picture) {
-  fit(marks_, picture, PixelFormat::Rgba8, false, 1);
-  marks_.bind();
+void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Uploaded& marks) {
+  fit(cover_, picture, PixelFormat::Rgba8, false, 1);
+  cover_.bind();
   glDisable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -162,13 +207,13 @@ void SurfaceOverlay::drawMarks(const OverlayPicture& picture) {
   marksProgram_.set("size", Vec2(picture.width, picture.height));
   marksProgram_.set("depthTerms", Vec3(projection[2][2], projection[3][2], projection[2][3]));
   marksProgram_.set("fill", kMarkFill);
-  marksProgram_.set("hidden", kHiddenMark);
+  marksProgram_.set("hidden", marks.hidden);
   const Camera& camera = picture.camera;
   marksProgram_.set("lift", camera.orthographic ? 0.0f : kMarkLift);
   marksProgram_.set("slack", camera.orthographic ? kMarkLift * length(camera.eye - camera.target) : 0.0f);
-  drawMarks(picture, triangles_, 3, triangleCount_);
-  drawMarks(picture, edges_, 2, edgeCount_);
-  drawMarks(picture, points_, 1, pointCount_);
+  drawMarks(picture, marks.triangles, 3, marks.triangleCount);
+  drawMarks(picture, marks.edges, 2, marks.edgeCount);
+  drawMarks(picture, marks.points, 1, marks.pointCount);
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);
 }
@@ -185,12 +230,12 @@ void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Buffer& plac
   glDrawArrays(GL_TRIANGLES, 0, count * (corners == 3 ? 3 : 6));
 }
 
-void SurfaceOverlay::compose(int samples) {
+void SurfaceOverlay::compose(int samples, bool showSurface, const Rgb& markColor) {
   surface_.colour().bind(samples > 1 ? kManySamplesUnit : kOneSampleUnit);
-  marks_.colour().bind(kMarksUnit);
+  cover_.colour().bind(kMarksUnit);
   composeProgram_.set("samples", samples);
-  composeProgram_.set("showSurface", hasValues_ ? 1 : 0);
-  composeProgram_.set("markColour", markColor_);
+  composeProgram_.set("showSurface", showSurface ? 1 : 0);
+  composeProgram_.set("markColour", markColor);
   composeProgram_.use();
   glBindVertexArray(emptyArray_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);

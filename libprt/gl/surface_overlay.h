@@ -24,9 +24,12 @@ class SurfaceOverlay {
   /// One value per vertex on the magnitude scale, or none: the surface keeps its look. Throws ValueError on
   /// another number of values.
   void setValues(std::span<const float> values);
+  /// Colours of triangles, in place of the values, and lines. Throws ValueError on another number of
+  /// triangles.
+  void setPaint(const SurfacePaint& paint);
   void setMarks(const SurfaceMarks& marks);
   /// Whether draw() would change anything.
-  bool empty() const { return !hasValues_ && pointCount_ + edgeCount_ + triangleCount_ == 0; }
+  bool empty() const { return !hasValues_ && !hasPaint_ && marks_.empty() && seams_.empty(); }
 
   /// Over the colours of `framebuffer` (0 = the window), which are display-encoded. grid * grid samples per
   /// pixel.
@@ -35,21 +38,33 @@ class SurfaceOverlay {
   Image render(const OverlayPicture& picture);
 
  private:
-  void drawSurface(const OverlayPicture& picture, int samples);
-  void drawMarks(const OverlayPicture& picture);
-  void drawMarks(const OverlayPicture& picture, const Buffer& places, int corners, int count);
-  void compose(int samples);
+  /// Marks as they were uploaded.
+  struct Uploaded {
+    Buffer points, edges, triangles;
+    int pointCount = 0, edgeCount = 0, triangleCount = 0;
+    Rgb color{1};
+    float hidden = 0;
 
-  Program surfaceProgram_, marksProgram_, composeProgram_;
+    bool empty() const { return pointCount + edgeCount + triangleCount == 0; }
+    void upload(const SurfaceMarks& marks);
+  };
+  void drawSurface(const OverlayPicture& picture, int samples);
+  void setView(Program& program, const OverlayPicture& picture) const;
+  void drawMarks(const OverlayPicture& picture, const Uploaded& marks);
+  void drawMarks(const OverlayPicture& picture, const Buffer& places, int corners, int count);
+  void compose(int samples, bool showSurface, const Rgb& markColor);
+
+  Program surfaceProgram_, paintProgram_, marksProgram_, composeProgram_;
   VertexArray meshArray_, emptyArray_;
-  Buffer positions_, normals_, values_, indices_, points_, edges_, triangles_;
+  Buffer positions_, normals_, values_, indices_, paintColors_, paintUv_;
   Texture scale_;
-  Framebuffer surface_, marks_;
-  Rgb markColor_{1};
+  Framebuffer surface_, cover_;
+  Uploaded marks_, seams_;
   Box3 bounds_;
   std::size_t vertexCount_ = 0;
-  int indexCount_ = 0, pointCount_ = 0, edgeCount_ = 0, triangleCount_ = 0;
-  bool hasValues_ = false;
+  int indexCount_ = 0;
+  float squares_ = 0;  // of the paint; 0: none
+  bool hasValues_ = false, hasPaint_ = false;
 };
 
 }  // namespace prt::gl

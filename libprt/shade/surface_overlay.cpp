@@ -50,10 +50,11 @@ class Projector {
 /// How much of each pixel marks cover: strongest mark, not the sum, so that what overlaps does not add up.
 class MarkCoverage {
  public:
-  MarkCoverage(const OverlayPicture& picture, const std::vector<float>& surface)
+  MarkCoverage(const OverlayPicture& picture, const std::vector<float>& surface, float hidden)
       : picture_(picture),
         project_(picture),
         surface_(surface),
+        hidden_(hidden),
         mark_(surface.size(), 0.0f),
         rim_(surface.size(), 0.0f) {}
 
@@ -104,7 +105,7 @@ class MarkCoverage {
 
   static void raise(float& value, float to) { value = std::max(value, to); }
   float opacityAt(std::size_t pixel, float depth) const {
-    return project_.seen(project_.distance(depth), surface_[pixel]) ? 1.0f : kHiddenMark;
+    return project_.seen(project_.distance(depth), surface_[pixel]) ? 1.0f : hidden_;
   }
 
   template <class Visit>
@@ -122,6 +123,7 @@ class MarkCoverage {
   const OverlayPicture& picture_;
   Projector project_;
   const std::vector<float>& surface_;  // distance, infinite where nothing is seen
+  float hidden_;
   std::vector<float> mark_, rim_;
 };
 
@@ -135,18 +137,31 @@ Vec3 positionOf(const TriMesh& mesh, const Fragment& f) {
   return weight.x * mesh.positions[t.x] + weight.y * mesh.positions[t.y] + weight.z * mesh.positions[t.z];
 }
 
-/// False colour of one fragment, display-encoded.
-Rgb fragmentColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f,
-                  const Camera& camera) {
+/// How much of its colour a fragment shows.
+float shadeOf(const TriMesh& mesh, const Fragment& f, const Camera& camera) {
   const UVec3& t = mesh.triangles[f.triangle];
   const Vec3 weight = weightsOf(f);
   const Vec3 n = weight.x * mesh.normals[t.x] + weight.y * mesh.normals[t.y] + weight.z * mesh.normals[t.z];
-  const bool known = values[t.x] >= 0 && values[t.y] >= 0 && values[t.z] >= 0;
-  const float value =
-      known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z] : -1.0f;
   const float size = length(n);
-  const float cosine = size > 0 ? dot(n, camera.towardsViewer(positionOf(mesh, f))) / size : 1.0f;
-  return overlayShade(cosine) * magnitudeColor(value);
+  return overlayShade(size > 0 ? dot(n, camera.towardsViewer(positionOf(mesh, f))) / size : 1.0f);
+}
+
+/// False colour of one fragment, display-encoded.
+Rgb valueColor(const TriMesh& mesh, std::span<const float> values, const Fragment& f) {
+  const UVec3& t = mesh.triangles[f.triangle];
+  const Vec3 weight = weightsOf(f);
+  const bool known = values[t.x] >= 0 && values[t.y] >= 0 && values[t.z] >= 0;
+  return magnitudeColor(known ? weight.x * values[t.x] + weight.y * values[t.y] + weight.z * values[t.z]
+                              : -1.0f);
+}
+
+Rgb paintColor(const SurfacePaint& paint, const Fragment& f) {
+  const Rgb color = paint.colors[f.triangle];
+  if (paint.uv.empty()) return color;
+  const Vec3 weight = weightsOf(f);
+  const Vec2* uv = &paint.uv[3 * std::size_t(f.triangle)];
+  const Vec2 at = weight.x * uv[0] + weight.y * uv[1] + weight.z * uv[2];
+  return onDarkSquare(at, paint.squares) ? kDarkSquare * color : color;
 }
 
 }  // namespace
@@ -158,12 +173,27 @@ Box3 SurfaceMarks::bounds() const {
   return box;
 }
 
+void checkPaint(const SurfacePaint& paint, std::size_t triangles) {
+  if ((!paint.colors.empty() && paint.colors.size() != triangles) ||
+      (!paint.uv.empty() && paint.uv.size() != 3 * triangles))
+    throw ValueError("paint of " + std::to_string(paint.colors.size()) + " colours for a mesh of " +
+                         std::to_string(triangles) + " triangles",
+                     "overlay", "give one colour for each triangle, and three texture coordinates");
+}
+
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
                          const OverlayPicture& picture, Job& job) {
+  return drawSurfaceOverlay(mesh, values, {}, marks, picture, job);
+}
+
+Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfacePaint& paint,
+                         const SurfaceMarks& marks, const OverlayPicture& picture, Job& job) {
   if (!values.empty() && values.size() != mesh.vertexCount())
     throw ValueError("an overlay of " + std::to_string(values.size()) + " values for a mesh of " +
                          std::to_string(mesh.vertexCount()) + " vertices",
                      "overlay", "give one value for each vertex");
+  checkPaint(paint, mesh.triangleCount());
+  const bool painted = !paint.colors.empty();
   Image image(picture.width, picture.height, 4);
   std::vector<float> surface(std::size_t(picture.width) * std::size_t(picture.height),
                              std::numeric_limits<float>::infinity());
@@ -181,22 +211,25 @@ Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, con
             surface[std::size_t(fragments.y + y) * std::size_t(picture.width) + std::size_t(fragments.x + x)];
         for (const Fragment& f : fragments.pixel(std::size_t(y * fragments.width + x))) {
           nearest = std::min(nearest, project.distanceTo(positionOf(mesh, f)));
-          if (values.empty()) continue;
+          if (values.empty() && !painted) continue;
           const float share = float(f.samples) / whole;
-          const Rgb color = fragmentColor(mesh, values, f, picture.camera);
+          const Rgb color = shadeOf(mesh, f, picture.camera) *
+                            (painted ? paintColor(paint, f) : valueColor(mesh, values, f));
           for (int c = 0; c < 3; ++c) out[c] += share * color[c];
           out[3] += share;
         }
       }
   });
-  if (marks.empty()) return image;
-  MarkCoverage coverage(picture, surface);
-  for (std::size_t i = 0; i + 2 < marks.triangles.size(); i += 3)
-    coverage.triangle(marks.triangles[i], marks.triangles[i + 1], marks.triangles[i + 2]);
-  for (std::size_t i = 0; i + 1 < marks.edges.size(); i += 2)
-    coverage.segment(marks.edges[i], marks.edges[i + 1], kMarkHalfWidth);
-  for (const Vec3& p : marks.points) coverage.segment(p, p, kMarkRadius);
-  coverage.lay(marks.color, image);
+  for (const SurfaceMarks* each : {&paint.seams, &marks}) {
+    if (each->empty()) continue;
+    MarkCoverage coverage(picture, surface, each->hidden);
+    for (std::size_t i = 0; i + 2 < each->triangles.size(); i += 3)
+      coverage.triangle(each->triangles[i], each->triangles[i + 1], each->triangles[i + 2]);
+    for (std::size_t i = 0; i + 1 < each->edges.size(); i += 2)
+      coverage.segment(each->edges[i], each->edges[i + 1], kMarkHalfWidth);
+    for (const Vec3& p : each->points) coverage.segment(p, p, kMarkRadius);
+    coverage.lay(each->color, image);
+  }
   return image;
 }
 

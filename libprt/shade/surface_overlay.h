@@ -7,6 +7,7 @@
 #include "libprt/mesh/mesh.h"
 #include "libprt/shade/camera.h"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,28 @@ struct SurfaceMarks {
   std::vector<Vec3> edges;        ///< pairs of ends
   std::vector<Vec3> triangles;    ///< triples of corners
   Rgb color{1.0f, 0.31f, 0.16f};  ///< as the screen shows it
+  float hidden = 0.3f;            ///< opacity of what lies behind the surface
 
   bool empty() const { return points.empty() && edges.empty() && triangles.empty(); }
   /// Bounds of everything marked.
   Box3 bounds() const;
 };
+
+/// Colours laid on the surface triangle by triangle, and squares in texture space over them.
+struct SurfacePaint {
+  std::vector<Rgb> colors;  ///< [F] as the screen shows them
+  std::vector<Vec2> uv;     ///< [3F] texture coordinates of each triangle's corners; empty: no squares
+  float squares = 32;       ///< along a side of the texture; every other one is darker
+  SurfaceMarks seams;       ///< lines over it, under all other marks
+
+  bool empty() const { return colors.empty() && seams.empty(); }
+};
+/// Brightness of the darker squares.
+inline constexpr float kDarkSquare = 0.55f;
+/// Whether a place of the texture lies on a darker square.
+inline bool onDarkSquare(const Vec2& uv, float squares) {
+  return (int(std::floor(uv.x * squares)) + int(std::floor(uv.y * squares))) % 2 != 0;
+}
 
 struct OverlayPicture {
   Camera camera;
@@ -35,7 +53,6 @@ inline constexpr float kMarkRadius = 4.5f;      ///< of points, in units of pixe
 inline constexpr float kMarkHalfWidth = 1.25f;  ///< of edges
 inline constexpr float kMarkOutline = 1.0f;     ///< dark rim around both
 inline constexpr float kMarkFill = 0.7f;        ///< opacity of triangles
-inline constexpr float kHiddenMark = 0.3f;      ///< opacity of what lies behind the surface
 /// A mark counts as hidden when it lies this share of its distance behind the surface.
 inline constexpr float kMarkLift = 2e-3f;
 
@@ -44,6 +61,12 @@ inline constexpr float kMarkLift = 2e-3f;
 /// are values but not one for each vertex.
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
                          const OverlayPicture& picture, Job& job);
+/// The same with paint, which takes the place of the values where it has colours. Throws ValueError when
+/// there are colours but not one for each triangle, or texture coordinates but not three.
+Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfacePaint& paint,
+                         const SurfaceMarks& marks, const OverlayPicture& picture, Job& job);
+/// Throws those errors.
+void checkPaint(const SurfacePaint& paint, std::size_t triangles);
 
 /// How false colour is shaded so that shapes stay legible: a factor from the cosine between normal and view.
 constexpr float overlayShade(float cosine) {

@@ -84,6 +84,38 @@ TEST_F(SurfaceOverlayGl, UnknownValuesAreTheCpus) {
   EXPECT_LT(disagreement(values, {}), 0.01);
 }
 
+TEST_F(SurfaceOverlayGl, SoIsPaintWithSquaresAndSeams) {
+  SurfacePaint paint;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    paint.colors.push_back(Rgb(0.2f + 0.1f * float(t % 7), 0.4f, 0.6f));
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& p = mesh.positions[mesh.triangles[t][k]];
+      paint.uv.push_back(Vec2(p.x, p.y) - Vec2(0.3f));
+    }
+  }
+  paint.squares = 6;
+  paint.seams.edges = marks().edges;
+  paint.seams.hidden = 0;
+  overlay.setPaint(paint);
+  overlay.setMarks(marks());
+  Job job;
+  const auto off = [&] {
+    const Image cpu = drawSurfaceOverlay(mesh, {}, paint, marks(), picture, job),
+                gpu = overlay.render(picture);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < cpu.data.size(); ++i)
+      different += std::abs(cpu.data[i] - gpu.data[i]) > 2.5f / 255;
+    return double(different) / double(cpu.data.size());
+  };
+  EXPECT_LT(off(), 0.02);
+  paint.uv.clear();
+  EXPECT_GT(off(), 0.05) << "the squares are there";
+  overlay.setPaint(paint);
+  EXPECT_LT(off(), 0.02);
+  paint.colors.resize(1);
+  EXPECT_THROW(overlay.setPaint(paint), ValueError);
+}
+
 /// The picture below is left as it is where nothing lies over it.
 TEST_F(SurfaceOverlayGl, LaysOverAPicture) {
   EXPECT_TRUE(overlay.empty());

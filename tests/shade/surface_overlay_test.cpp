@@ -47,6 +47,30 @@ TEST(SurfaceOverlay, UnknownValuesAreGrey) {
   EXPECT_LT(length(Vec3(at(image, 70, 120)) - kUnknownColor), 0.02f);
 }
 
+TEST(SurfaceOverlay, PaintColoursTrianglesAndDarkensSquares) {
+  const TriMesh mesh = square();
+  SurfacePaint paint;
+  paint.colors = {Rgb(1, 0, 0), Rgb(0, 1, 0)};
+  Job job;
+  const Image plain = drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job);
+  // Both colours, each over half of the square, and nothing between them.
+  int red = 0, green = 0;
+  for (int y = 55; y < 145; ++y)
+    for (int x = 55; x < 145; ++x) red += at(plain, x, y).x > 0.9f, green += at(plain, x, y).y > 0.9f;
+  EXPECT_NEAR(red, 4050, 120);
+  EXPECT_NEAR(green, 4050, 120);
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) paint.uv.push_back(Vec2(mesh.positions[t[k]]) + Vec2(0.5f));
+  paint.squares = 2;
+  const Image squares = drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job);
+  const auto brightness = [&](int x, int y) { return std::max(at(squares, x, y).x, at(squares, x, y).y); };
+  EXPECT_NEAR(brightness(70, 60), kDarkSquare, 0.02f);
+  EXPECT_NEAR(brightness(130, 70), 1, 0.02f);
+  EXPECT_NEAR(brightness(70, 140), 1, 0.02f);
+  paint.colors.pop_back();
+  EXPECT_THROW(drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job), ValueError);
+}
+
 TEST(SurfaceOverlay, MarksAreInFrontOrShineThrough) {
   SurfaceMarks marks;
   marks.color = Rgb(1, 0, 0);
@@ -55,7 +79,7 @@ TEST(SurfaceOverlay, MarksAreInFrontOrShineThrough) {
   EXPECT_NEAR(at(image, 100, 100).w, 1, 1e-3) << "on the surface";
   EXPECT_NEAR(at(image, 100, 100).x, 1, 1e-3);
   const int behind = 100 + int(100 * 0.3f * 10 / 11);
-  EXPECT_NEAR(at(image, behind, 100).w, kHiddenMark, 1e-3) << "a unit behind it";
+  EXPECT_NEAR(at(image, behind, 100).w, SurfaceMarks{}.hidden, 1e-3) << "a unit behind it";
   EXPECT_NEAR(at(image, 100 + int(100 * 0.8f * 10 / 11), 100).w, 1, 1e-3) << "as far away, beside it";
   EXPECT_EQ(at(image, 100, 80), Vec4(0));
 }

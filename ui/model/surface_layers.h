@@ -30,11 +30,22 @@ class SurfaceLayers : public QObject {
     Q_EMIT changed();
   }
 
+  /// Colours of the scene's triangles, in place of the values; a canvas leaves out paint that does not fit
+  /// its scene.
+  void setPaint(SurfacePaint paint) {
+    if (paint.empty() && paint_.empty()) return;
+    paint_ = std::move(paint);
+    ++paintVersion_;
+    Q_EMIT changed();
+  }
+
   const std::vector<float>& values() const { return values_; }
+  const SurfacePaint& paint() const { return paint_; }
   const SurfaceMarks& marks() const { return marks_; }
-  bool empty() const { return values_.empty() && marks_.empty(); }
+  bool empty() const { return values_.empty() && paint_.empty() && marks_.empty(); }
   // Each grows with every change.
   quint64 valuesVersion() const { return valuesVersion_; }
+  quint64 paintVersion() const { return paintVersion_; }
   quint64 marksVersion() const { return marksVersion_; }
 
  Q_SIGNALS:
@@ -42,8 +53,9 @@ class SurfaceLayers : public QObject {
 
  private:
   std::vector<float> values_;
+  SurfacePaint paint_;
   SurfaceMarks marks_;
-  quint64 valuesVersion_ = 0, marksVersion_ = 0;
+  quint64 valuesVersion_ = 0, paintVersion_ = 0, marksVersion_ = 0;
 };
 
 }  // namespace prt::ui

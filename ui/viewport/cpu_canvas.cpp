@@ -43,11 +43,14 @@ void CpuCanvas::drawInto(QImage& image, LiveRenderer& renderer, const LiveScene&
                 {reinterpret_cast<std::uint32_t*>(image.bits()), std::size_t(width) * std::size_t(height)},
                 job);
   const bool fits = scene.scene && layers.values.size() == scene.scene->mesh.vertexCount();
-  if (!scene.scene || (!fits && layers.marks.empty())) return;
+  const SurfacePaint& paint = layers.paint;
+  const bool painted = scene.scene && !paint.empty() &&
+                       (paint.colors.empty() || paint.colors.size() == scene.scene->mesh.triangleCount());
+  if (!scene.scene || (!fits && !painted && layers.marks.empty())) return;
   const OverlayPicture over{picture.camera, width, height, layers.grid, layers.pixelScale};
   layOver(image, drawSurfaceOverlay(scene.scene->mesh,
                                     fits ? std::span<const float>(layers.values) : std::span<const float>(),
-                                    layers.marks, over, job));
+                                    painted ? paint : SurfacePaint{}, layers.marks, over, job));
 }
 
 CpuCanvas::CpuCanvas(CanvasContext context, QWidget* parent) : QWidget(parent), context_(std::move(context)) {
@@ -108,7 +111,8 @@ LiveScene CpuCanvas::liveScene() const {
 }
 
 CpuCanvas::Layers CpuCanvas::layersNow(double scale, int grid) const {
-  return {context_.layers.values(), context_.layers.marks(), float(devicePixelRatioF() * scale), grid};
+  return {context_.layers.values(), context_.layers.paint(), context_.layers.marks(),
+          float(devicePixelRatioF() * scale), grid};
 }
 
 LivePicture CpuCanvas::livePicture(const QSize& size, int grid) const {

@@ -51,6 +51,7 @@ class CpuCanvas : public QWidget, public Canvas {
   /// What lies over the picture, as it is now.
   struct Layers {
     std::vector<float> values;
+    SurfacePaint paint;
     SurfaceMarks marks;
     float pixelScale = 1;
     int grid = 1;

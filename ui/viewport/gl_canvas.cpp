@@ -211,17 +211,23 @@ void GlCanvas::drawLayers() {
   if (over.empty() || !lit.scene()) return;
   if (!layers_) {
     layers_ = std::make_unique<gl::SurfaceOverlay>();
-    layersScene_ = layersValues_ = layersMarks_ = 0;
+    layersScene_ = layersValues_ = layersPaint_ = layersMarks_ = 0;
   }
   if (layersScene_ != lit.sceneVersion()) {
     layers_->setMesh(lit.scene()->mesh);
     layersScene_ = lit.sceneVersion();
-    layersValues_ = 0;
+    layersValues_ = layersPaint_ = 0;
   }
   if (layersValues_ != over.valuesVersion()) {
     const bool fits = over.values().size() == lit.scene()->mesh.vertexCount();
     layers_->setValues(fits ? std::span<const float>(over.values()) : std::span<const float>());
     layersValues_ = over.valuesVersion();
+  }
+  if (layersPaint_ != over.paintVersion()) {
+    const std::vector<Rgb>& colors = over.paint().colors;
+    const bool fits = colors.empty() || colors.size() == lit.scene()->mesh.triangleCount();
+    layers_->setPaint(fits ? over.paint() : SurfacePaint{});
+    layersPaint_ = over.paintVersion();
   }
   if (layersMarks_ != over.marksVersion()) {
     layers_->setMarks(over.marks());

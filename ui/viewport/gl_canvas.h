@@ -69,7 +69,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   QString description_;
   quint64 scene_ = 0, light_ = 0, materials_ = 0;
   std::shared_ptr<const EnvironmentMap> backdrop_;  // that was uploaded
-  quint64 layersScene_ = 0, layersValues_ = 0, layersMarks_ = 0;
+  quint64 layersScene_ = 0, layersValues_ = 0, layersPaint_ = 0, layersMarks_ = 0;
 };
 
 }  // namespace prt::ui
