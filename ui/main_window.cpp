@@ -1,5 +1,6 @@
 #include "ui/main_window.h"
 
+#include "ui/docks/chart_dock.h"
 #include "ui/docks/jobs_dock.h"
 #include "ui/docks/light_dock.h"
 #include "ui/docks/log_dock.h"
@@ -9,10 +10,13 @@
 #include "ui/docks/scene_dock.h"
 #include "ui/docks/transfer_dock.h"
 #include "ui/document_menu.h"
+#include "ui/model/chart_editor.h"
 #include "ui/model/session.h"
+#include "ui/viewport/cut_tool.h"
 #include "ui/viewport/light_handles.h"
 #include "ui/viewport/view_actions.h"
 #include "ui/viewport/viewport.h"
+#include "ui/widgets/chart_view.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/number_field.h"
@@ -42,7 +46,7 @@ namespace prt::ui {
 
 namespace {
 
-constexpr int kLayoutVersion = 3;  // raised when the docks change, so that old layouts are not restored
+constexpr int kLayoutVersion = 4;  // raised when the docks change, so that old layouts are not restored
 constexpr int kRecoveryTop = 72;   // below what the corners of the picture say
 constexpr int kRecoveryWidth = 640;
 constexpr int kThumbWidth = 192, kThumbHeight = 120;
@@ -75,6 +79,8 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       viewActions_(new ViewActions(session, *viewport_, !freshLayout, this)),
       lightHandles_(
           new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
+      cutTool_(new CutTool(session.charts(), session.rays(),
+                           [this](const QPointF& at) { return viewport_->pick(at); })),
       message_(new MessageBar(viewport_)),
       recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
@@ -82,13 +88,15 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       statusLine_(new StatusLine(session, *viewport_, *statusBar())) {
   setObjectName(QStringLiteral("studio"));
   setCentralWidget(viewport_);
+  viewport_->addManipulator(cutTool_);  // before what it works among
   viewport_->addManipulator(lightHandles_);
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   makeDocks();
   makeSheets();
-  makeMenus(*this, {session_, *documents_, *viewActions_, *lightHandles_, *layouts_, *strip_, *palette_,
-                    *keys_, docks_});
+  makeMenus(*this, {session_, *documents_, *viewActions_, *lightHandles_, *chartDock_,
+                    [this] { bringToFront(QStringLiteral("charts")); }, *layouts_, *strip_, *palette_, *keys_,
+                    docks_});
   resize(kDefaultWidth, kDefaultHeight);
   if (freshLayout) {
     layouts_->reset();
@@ -117,6 +125,13 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   session_.project().autosave().setThumbnail(
       [view = QPointer(viewport_)] { return view ? thumbnailOf(*view) : QByteArray(); });
   connect(&session_, &Session::statusChanged, strip_, &WorkflowStrip::refresh);
+  connect(&session_.charts(), &ChartEditor::changed, strip_, &WorkflowStrip::refresh);
+  // A chart is selected where it is clicked, on the model too.
+  connect(viewport_, &Viewport::clicked, this, [this](const QPointF& at, Qt::KeyboardModifiers) {
+    if (!session_.charts().watched()) return;
+    const auto hit = viewport_->pick(at);
+    session_.charts().select(hit ? session_.charts().chartAt(hit->triangle) : -1);
+  });
   connect(&session_.relighter(), &Relighter::environmentChanged, strip_, &WorkflowStrip::refresh);
   refreshTitle();
   viewport_->setFocus();
@@ -157,6 +172,8 @@ void MainWindow::makeDocks() {
   QDockWidget* transfer = addDock(tr("Transfer"), QStringLiteral("transfer"), new TransferDock(session_),
                                   Qt::RightDockWidgetArea);
 
+  chartDock_ = new ChartDock(session_);
+  QDockWidget* charts = addDock(tr("Charts"), QStringLiteral("charts"), chartDock_, Qt::RightDockWidgetArea);
   QDockWidget* patch =
       addDock(tr("Patch"), QStringLiteral("patch"), new PatchDock(session_), Qt::RightDockWidgetArea);
   addDock(tr("RTT"), QStringLiteral("rtt"), new RttDock(session_), Qt::RightDockWidgetArea);
@@ -170,6 +187,16 @@ void MainWindow::makeDocks() {
     return [this, list] { return session_.bakes().worstStatus(list); };
   };
   strip_->addStep(tr("Mesh"), tr("The objects, read and repaired."), stage({"mesh"}), bring(scene));
+  strip_->addStep(
+      tr("Charts"), tr("The surface cut into charts, laid flat and packed."),
+      [this] {
+        const ChartNumbers n = session_.charts().numbers();
+        if (n.charts == 0) return ProductStatus::Missing;
+        if (n.notDisks + n.overlaps > 0 || !session_.charts().problems().isEmpty())
+          return ProductStatus::Failed;
+        return n.final ? ProductStatus::Fresh : ProductStatus::Baking;
+      },
+      bring(charts));
   const auto meso = stage({"patch", "rtt"});
   strip_->addStep(
       tr("Patch"), tr("The surface's fine structure and how it answers to light."),
@@ -202,6 +229,7 @@ void MainWindow::makeSheets() {
 
 QList<BindingGroup> MainWindow::bindings() const {
   QList<BindingGroup> groups{{tr("Viewport"), viewport_->bindings()},
+                             {tr("Chart view"), ChartView::bindings()},
                              {tr("Numbers"), NumberField::bindings()}};
   return groups + menuBindings(*menuBar());
 }

@@ -9,7 +9,9 @@ class QDockWidget;
 
 namespace prt::ui {
 
+class ChartDock;
 class CommandPalette;
+class CutTool;
 class KeysOverlay;
 class Layouts;
 class LightHandles;
@@ -26,6 +28,8 @@ class MainWindow : public QMainWindow {
 
   Viewport& viewport() { return *viewport_; }
   LightHandles& lightHandles() { return *lightHandles_; }
+  ChartDock& chartDock() { return *chartDock_; }
+  CutTool& cutTool() { return *cutTool_; }
   MessageBar& messageBar() { return *message_; }
   CommandPalette& commandPalette() { return *palette_; }
   KeysOverlay& keys() { return *keys_; }
@@ -61,6 +65,8 @@ class MainWindow : public QMainWindow {
   Viewport* viewport_;
   class ViewActions* viewActions_;
   LightHandles* lightHandles_;
+  CutTool* cutTool_;
+  ChartDock* chartDock_ = nullptr;
   MessageBar* message_;
   class RecoveryBar* recovery_;
   class WorkflowStrip* strip_;

@@ -1,6 +1,7 @@
 #include "ui/screenshot.h"
 
 #include "ui/main_window.h"
+#include "ui/model/chart_editor.h"
 #include "ui/model/session.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/command_palette.h"
@@ -28,8 +29,14 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
   if (!options.dock.isEmpty()) window.bringToFront(options.dock);
   QTimer poll;
   int calm = 0;
+  bool cut = !options.autoCut;
   QObject::connect(&poll, &QTimer::timeout, &window, [&] {
-    const bool done = session.settled() && session.bakes().fresh() && window.viewport().canvas().settled();
+    if (!cut && session.charts().ready() && session.charts().settled()) {
+      cut = true;
+      session.charts().autoCut();
+    }
+    const bool done =
+        cut && session.settled() && session.bakes().fresh() && window.viewport().canvas().settled();
     calm = done ? calm + 1 : 0;
     if (calm >= kCalm || !problem.isEmpty()) QApplication::exit();
   });

@@ -12,8 +12,9 @@ class Session;
 
 struct ScreenshotOptions {
   QString file;
-  QString dock;   ///< brought to the front of its place first; empty leaves the docks as they are
-  QString sheet;  ///< "palette" or "keys": opened over the window
+  QString dock;          ///< brought to the front of its place first; empty leaves the docks as they are
+  QString sheet;         ///< "palette" or "keys": opened over the window
+  bool autoCut = false;  ///< charts are cut first
 };
 
 /// Waits until everything is loaded, baked and drawn to its last pass, writes the window with all that lies

@@ -46,6 +46,8 @@ Options parse(const QApplication& application) {
        {QStringLiteral("dock"),
         QStringLiteral("dock that the picture shows in front: scene, light, jobs ..."),
         QStringLiteral("NAME")},
+       {QStringLiteral("auto-cut"),
+        QStringLiteral("cut charts before the picture is taken; with --dock charts")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
         QStringLiteral("NAME")},
        {QStringLiteral("errors"),
@@ -71,6 +73,7 @@ Options parse(const QApplication& application) {
   options.resetUi = parser.isSet(QStringLiteral("reset-ui"));
   options.screenshot.file = parser.value(QStringLiteral("screenshot"));
   options.screenshot.dock = parser.value(QStringLiteral("dock"));
+  options.screenshot.autoCut = parser.isSet(QStringLiteral("auto-cut"));
   options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
   if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
       options.screenshot.sheet != u"keys")

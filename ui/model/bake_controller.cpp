@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <set>
 
 namespace prt::ui {
 
@@ -16,6 +17,34 @@ namespace {
 
 bool covers(const std::string& section, const std::string& path) {
   return path == section || (path.starts_with(section) && path[section.size()] == '.');
+}
+
+// What the studio shows. What these are made from follows by itself.
+const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt"};
+
+const Stage& stageNamed(const std::string& name) {
+  return *std::find_if(stages().begin(), stages().end(),
+                       [&](const Stage& stage) { return stage.name == name; });
+}
+
+// The stage and all that it is made from, in any order.
+void collect(const std::string& name, QStringList& into) {
+  const QString text = QString::fromStdString(name);
+  if (into.contains(text)) return;
+  into << text;
+  for (const std::string& input : stageNamed(name).inputs) collect(input, into);
+}
+
+// Those and what they are made from. The charts are worked on elsewhere: cutting must not stop a bake.
+bool isBakedHere(const Stage& stage) {
+  static const std::set<std::string> needed = [] {
+    QStringList all;
+    for (const std::string& name : kWanted) collect(name, all);
+    std::set<std::string> names;
+    for (const QString& name : all) names.insert(name.toStdString());
+    return names;
+  }();
+  return needed.contains(stage.name);
 }
 
 // What each stage and everything before it reads from the recipe, as text: equal texts, equal products
@@ -26,13 +55,14 @@ std::map<std::string, std::string> readings(const Recipe& recipe) {
   forEachField(plain, [&](const FieldPlace& place, const FieldRef& field) {
     for (const Stage& stage : stages())
       for (const std::string& section : stage.reads)
-        if (covers(section, place.parameter.path))
+        if (covers(section, place.parameter.path) && isBakedHere(stage))
           texts[stage.name] += place.path() + "=" + fieldToJson(field, place.parameter).dump() + "\n";
   });
   for (const Stage& stage : stages())
-    if (stage.derives) texts[stage.name] += stage.derives(plain) + "\n";
+    if (stage.derives && isBakedHere(stage)) texts[stage.name] += stage.derives(plain) + "\n";
   for (const Stage& stage : stages())
-    for (const std::string& input : stage.inputs) texts[stage.name] += "[" + input + "]" + texts[input];
+    for (const std::string& input : stage.inputs)
+      if (isBakedHere(stage)) texts[stage.name] += "[" + input + "]" + texts[input];
   return texts;
 }
 
@@ -50,25 +80,9 @@ bool sameBake(const Recipe& a, const Recipe& b) {
          a.rtt == b.rtt;
 }
 
-// What the studio shows. What these are made from follows by itself.
-const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt"};
-
-const Stage& stageNamed(const std::string& name) {
-  return *std::find_if(stages().begin(), stages().end(),
-                       [&](const Stage& stage) { return stage.name == name; });
-}
-
 bool wantedBy(const Recipe& recipe, const std::string& stage) {
   const auto& wanted = stageNamed(stage).wanted;
   return !wanted || wanted(recipe);
-}
-
-// The stage and all that it is made from, in any order.
-void collect(const std::string& name, QStringList& into) {
-  const QString text = QString::fromStdString(name);
-  if (into.contains(text)) return;
-  into << text;
-  for (const std::string& input : stageNamed(name).inputs) collect(input, into);
 }
 
 QStringList withInputs(const std::string& name) {
@@ -120,11 +134,10 @@ BakeController::BakeController(JobRunner& runner, QObject* parent)
   connect(&runner_, &JobRunner::retried, this, [this](quint64 failed, quint64 job) {
     if (failed == failedJob_) goOn(job);
   });
-  QStringList needed;
-  for (const std::string& name : kWanted) collect(name, needed);
   for (const Stage& stage : stages())
-    if (const QString name = QString::fromStdString(stage.name); needed.contains(name))
-      infos_.push_back({name, QString::fromStdString(stage.makes), stage.stored});
+    if (isBakedHere(stage))
+      infos_.push_back(
+          {QString::fromStdString(stage.name), QString::fromStdString(stage.makes), stage.stored});
 }
 
 BakeController::~BakeController() {

@@ -7,6 +7,7 @@
 #include "libprt/project/lights.h"
 #include "libprt/project/products.h"
 #include "libprt/project/scenes.h"
+#include "ui/model/chart_editor.h"
 #include "ui/model/defect_view.h"
 #include "ui/model/error_estimate.h"
 #include "ui/model/expression.h"
@@ -50,6 +51,7 @@ Session::Session(QObject* parent)
       project_(document_, bakes_, jobs_, log_),
       environments_(std::make_shared<EnvironmentCache>()),
       sceneEditor_(std::make_unique<SceneEditor>(*this)),
+      charts_(std::make_unique<ChartEditor>(*this)),
       defects_(std::make_unique<DefectView>(*this)),
       errors_(std::make_unique<ErrorEstimate>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);

@@ -27,6 +27,7 @@ struct MeshProduct;
 
 namespace prt::ui {
 
+class ChartEditor;
 class DefectView;
 class ErrorEstimate;
 class SceneEditor;
@@ -61,6 +62,7 @@ class Session : public QObject {
   Log& log() { return log_; }
   SurfaceLayers& layers() { return layers_; }
   SceneEditor& sceneEditor() { return *sceneEditor_; }
+  ChartEditor& charts() { return *charts_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
   ProjectKeeper& project() { return project_; }
@@ -150,6 +152,7 @@ class Session : public QObject {
   int level_ = 0, levels_ = 0;
   SurfaceLayers layers_;
   std::unique_ptr<SceneEditor> sceneEditor_;
+  std::unique_ptr<ChartEditor> charts_;
   std::unique_ptr<DefectView> defects_;
   std::unique_ptr<ErrorEstimate> errors_;
 };

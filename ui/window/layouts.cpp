@@ -18,11 +18,12 @@ QString s(const char* text) {
 
 std::vector<LayoutPlan> layoutPlans() {
   const QStringList jobsAndLog{s("jobs"), s("log")};
-  const QStringList mesoDocks{s("patch"), s("rtt")};
+  const QStringList mesoDocks{s("charts"), s("patch"), s("rtt")};
   return {
       {.name = s("author"),
        .title = QObject::tr("Author"),
-       .tip = QObject::tr("Docks for making the fine structure: the patch and how it answers to light."),
+       .tip = QObject::tr(
+           "Docks for charts and the fine structure: cut and pack, the patch and how it answers to light."),
        .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
        .right = {kRightWidth, {{mesoDocks, 848}}},
        .hidden = {s("material"), s("transfer")}},

@@ -7,6 +7,7 @@
 #include "ui/viewport/view_actions.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/workflow_strip.h"
+#include "ui/window/chart_actions.h"
 #include "ui/window/command_palette.h"
 #include "ui/window/keys_overlay.h"
 #include "ui/window/layouts.h"
@@ -107,6 +108,7 @@ void makeMenus(QMainWindow& window, const MenuTargets& targets) {
   targets.documents.fillFile(bar.addMenu(tr("&File")));
   fillEdit(*bar.addMenu(tr("&Edit")), targets);
   fillView(*bar.addMenu(tr("&View")), targets);
+  fillChartMenu(*bar.addMenu(tr("&Charts")), targets.session, targets.charts, targets.showCharts);
   fillHelp(*bar.addMenu(tr("&Help")), targets);
   bar.setCornerWidget(&targets.strip, Qt::TopRightCorner);
 }

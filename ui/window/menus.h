@@ -4,12 +4,15 @@
 #include <QList>
 #include <QObject>
 
+#include <functional>
+
 class QDockWidget;
 class QMainWindow;
 class QMenu;
 
 namespace prt::ui {
 
+class ChartDock;
 class CommandPalette;
 class DocumentMenu;
 class KeysOverlay;
@@ -25,6 +28,8 @@ struct MenuTargets {
   DocumentMenu& documents;
   ViewActions& view;
   LightHandles& lightHandles;
+  ChartDock& charts;
+  std::function<void()> showCharts;  ///< brings their dock to light
   Layouts& layouts;
   WorkflowStrip& strip;  ///< gets the layouts as buttons, too
   CommandPalette& palette;

@@ -1,0 +1,184 @@
+#include "ui/model/chart_maps.h"
+
+#include "libprt/core/error.h"
+#include "libprt/core/parallel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+namespace prt::ui {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kBetweenMaps = std::chrono::milliseconds(60);  // that are told, of one chart
+
+class Layer {
+ public:
+  Layer(const ChartWork& work, const ChartNews& news, Job& job)
+      : work_(work), news_(news), job_(job), maps_(work.known), running_(work.charts->charts.size()) {}
+
+  void run() {
+    suggest();
+    layFlat();
+    pack();
+  }
+
+ private:
+  struct Running {
+    std::unique_ptr<FlatChart> flat;
+    std::unique_ptr<Flattening> map;
+    Clock::time_point told;
+    bool more = false;  // steps to be made
+  };
+  const std::vector<Chart>& charts() const { return work_.charts->charts; }
+  static std::string nameOf(std::size_t c) { return "chart " + std::to_string(c + 1); }
+
+  void suggest() {
+    for (std::size_t c = 0; c < charts().size(); ++c) {
+      if (charts()[c].fault() == ChartFault::None) continue;
+      std::vector<std::uint32_t> edges =
+          suggestedCut(work_.on->surface, charts()[c], work_.on->alongCreases, job_);
+      const std::lock_guard lock(mutex_);
+      news_.suggested(c, std::move(edges));
+    }
+  }
+
+  // First all of them a little, small ones first, then each to its end, large ones first.
+  void layFlat() {
+    std::vector<std::size_t> order;
+    double triangles = 0;
+    for (std::size_t c = 0; c < charts().size(); ++c) {
+      if (maps_[c] || work_.leave[c]) continue;
+      order.push_back(c);
+      triangles += double(charts()[c].faces.size());
+    }
+    if (order.empty()) return;
+    job_.begin("laying charts flat", 2 * triangles, "triangles");
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return charts()[a].faces.size() < charts()[b].faces.size();
+    });
+    each(order, [this](std::size_t c) { start(c); });
+    std::reverse(order.begin(), order.end());
+    each(order, [this](std::size_t c) { finish(c); });
+  }
+
+  template <class Step>
+  void each(const std::vector<std::size_t>& order, const Step& step) {
+    parallelFor(job_, 0, order.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        try {
+          step(order[i]);
+        } catch (const Error& error) {
+          running_[order[i]] = {};
+          const std::lock_guard lock(mutex_);
+          news_.failed(order[i], error.problem());
+        }
+        job_.advance(double(charts()[order[i]].faces.size()));
+      }
+    });
+  }
+
+  void start(std::size_t c) {
+    Running& run = running_[c];
+    run.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], nameOf(c));
+    FlattenOptions options =
+        flattenOptionsFor(*run.flat, work_.settings[c], flattenOptionsOf(work_.recipe.charts));
+    options.name = nameOf(c);
+    run.map = std::make_unique<Flattening>(*run.flat, options, job_);
+    tell(c, false);
+    run.more = run.map->step(job_);
+    tell(c, false);
+  }
+
+  void finish(std::size_t c) {
+    Running& run = running_[c];
+    if (!run.map) return;
+    while (run.more && (run.more = run.map->step(job_)))
+      if (Clock::now() - run.told >= kBetweenMaps) tell(c, false);
+    run.map->finish(job_);
+    tell(c, true);
+    run = {};
+  }
+
+  void tell(std::size_t c, bool final) {
+    Running& run = running_[c];
+    auto map = std::make_shared<FlatMap>();
+    map->uv = run.map->uv();
+    map->stretch = run.map->stretch();
+    map->corners = run.map->corners();
+    map->final = final;
+    run.told = Clock::now();
+    const std::lock_guard lock(mutex_);
+    if (final) maps_[c] = map;
+    news_.map(c, std::move(map));
+  }
+
+  void pack() {
+    std::vector<std::size_t> usable;
+    for (std::size_t c = 0; c < maps_.size(); ++c)
+      if (maps_[c]) usable.push_back(c);
+    if (usable.empty()) return;
+    try {
+      PackedCharts packed = usable.size() == maps_.size() ? packAll() : packSome(usable);
+      news_.packed(std::move(packed));
+    } catch (const Error& error) {
+      news_.notPacked(error.what());
+    }
+  }
+
+  PackedCharts packAll() {
+    FlatCharts flat;
+    flat.seams = work_.seams;
+    flat.charts = *work_.charts;
+    for (const FlatMapPtr& map : maps_) {
+      flat.uv.push_back(map->uv);
+      flat.stretch.push_back(map->stretch);
+    }
+    auto atlas =
+        std::make_shared<Atlas>(packAtlas(flat, packingOf(work_.recipe, flat, work_.settings), job_));
+    PackedCharts packed{atlas->placements, atlas, {}};
+    packed.facts = atlasFacts(work_.on->scene->mesh, work_.on->surface, *atlas, job_);
+    return packed;
+  }
+
+  PackedCharts packSome(const std::vector<std::size_t>& usable) {
+    std::vector<PackChart> outlines;
+    std::vector<ChartPlacement> locked;
+    for (const std::size_t c : usable) {
+      const StretchSum& s = maps_[c]->stretch;
+      outlines.push_back(
+          {outlineOf(charts()[c], maps_[c]->uv), charts()[c].area, s.flatArea, work_.settings[c].weight});
+      locked.push_back(work_.settings[c].place.value_or(ChartPlacement{}));
+    }
+    const AtlasRecipe& atlas = work_.recipe.atlas;
+    const auto placed = packCharts(outlines, locked, {atlas.size, atlas.gutter, atlas.turns}, job_);
+    PackedCharts packed;
+    packed.placements.assign(maps_.size(), ChartPlacement{.scale = 0});
+    for (std::size_t i = 0; i < usable.size(); ++i) packed.placements[usable[i]] = placed[i];
+    return packed;
+  }
+
+  const ChartWork& work_;
+  const ChartNews& news_;
+  Job& job_;
+  std::vector<FlatMapPtr> maps_;
+  std::vector<Running> running_;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void layCharts(const ChartWork& work, const ChartNews& news, Job& job) {
+  Layer(work, news, job).run();
+}
+
+std::vector<DVec2> outlineOf(const Chart& chart, const std::vector<DVec2>& uv) {
+  std::vector<DVec2> outline;
+  if (chart.loops.empty()) return outline;
+  for (const std::uint32_t v : chart.loops[0]) outline.push_back(uv[v]);
+  return outline;
+}
+
+}  // namespace prt::ui
