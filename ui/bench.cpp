@@ -45,11 +45,13 @@ double quantile(std::vector<double> values, double part) {
 struct Times {
   std::vector<double> between, edit, draw;
   double cpu = 0;  // of all threads together
+  int coarse = 0;  // frames of less than the screen's pixels
 
   nlohmann::json json() const {
     double sum = 0;
     for (const double t : between) sum += t;
     return {{"frames", between.size()},
+            {"coarse_frames", coarse},
             {"fps", sum > 0 ? 1000 * double(between.size()) / sum : 0},
             {"median_ms", quantile(between, 0.5)},
             {"p95_ms", quantile(between, 0.95)},
@@ -156,6 +158,7 @@ class Bench {
         times.between.push_back(now - last);
         times.edit.push_back(handled);
         times.draw.push_back(canvas.frameMilliseconds());
+        times.coarse += canvas.coarse();
       }
       last = now;
       while (paced && double(clock.nsecsElapsed()) * 1e-6 < sent + kFrameOfScreen)

@@ -19,9 +19,10 @@ struct BenchOptions {
 /// (bench_bakes.h). Prints one JSON object on stdout: `viewport`, `drawing`, `vertices`,
 /// `open_to_first_preview_ms`, and for each of `light_drag`, `light_drag_glossy`, `exponent_slide`,
 /// `orbit` and `while_baking` the number of `frames`, `fps`, and of the times between frames `median_ms`,
-/// `p95_ms`, `p99_ms`, `worst_ms`; `edit_ms` and `draw_ms` are the medians of handling the event and of
-/// drawing, `cpu_ms` is what a frame costs in processor time, all threads together. Returns the exit status:
-/// 1 with a line on stderr when the input cannot be opened or baked.
+/// `p95_ms`, `p99_ms`, `worst_ms`, `coarse_frames` (how many had fewer pixels than the screen); `edit_ms` and
+/// `draw_ms` are the medians of handling the event and of drawing, `cpu_ms` is what a frame costs in
+/// processor time, all threads together. Returns the exit status: 1 with a line on stderr when the input
+/// cannot be opened or baked.
 int runBench(MainWindow& window, Session& session, const BenchOptions& options);
 
 }  // namespace prt::ui

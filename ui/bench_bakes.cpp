@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace prt::ui {
@@ -38,6 +39,22 @@ QAbstractButton* cancelButton(JobsDock& dock) {
   return nullptr;
 }
 
+// Calls back whenever transfer arrives, for as long as it lives.
+class Arrival {
+ public:
+  template <class Call>
+  Arrival(const BakeController& bakes, Call call)
+      : connection_(QObject::connect(&bakes, &BakeController::productArrived, &bakes,
+                                     [call](const QString& stage, const ProductState&) {
+                                       if (stage == QStringLiteral("transfer")) call();
+                                     })) {}
+  ~Arrival() { QObject::disconnect(connection_); }
+  Arrival(const Arrival&) = delete;
+
+ private:
+  QMetaObject::Connection connection_;
+};
+
 class BakeBench {
  public:
   BakeBench(BenchHand& hand, const char* kind) : hand_(hand), session_(hand.session()), kind_(kind) {}
@@ -57,7 +74,12 @@ class BakeBench {
   void bakeAndCancel(const Moment& moment) {
     static int seed = 1000;
     hand_.waitFor([&] { return session_.jobs().idle(); });
-    const auto before = session_.relighter().transfer();
+    // Frames drawn when the first preview arrives: the next one shows it.
+    const Canvas& canvas = hand_.window().viewport().canvas();
+    std::optional<quint64> shown;
+    const Arrival arrival(session_.bakes(), [&] {
+      if (!shown) shown = canvas.frames();
+    });
     QElapsedTimer timer;
     timer.start();
     hand_.edit({{"transfer.kind", kind_},
@@ -65,9 +87,7 @@ class BakeBench {
                 {"transfer.seed", std::to_string(++seed)}});
     session_.bakes().bake();
     if (moment.rays == kEndless) {
-      hand_.waitFor([&] { return session_.relighter().transfer() != before; });
-      const quint64 shown = hand_.window().viewport().canvas().frames();
-      hand_.waitFor([&] { return hand_.window().viewport().canvas().frames() > shown; });
+      hand_.waitFor([&] { return shown && canvas.frames() > *shown; });
       preview_ = std::max(preview_, milliseconds(timer));
     } else {
       hand_.waitFor([this] { return writing() || !session_.bakes().baking(); });

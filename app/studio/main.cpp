@@ -12,8 +12,10 @@
 #include <QCommandLineParser>
 #include <QSettings>
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <string_view>
 
 namespace {
 
@@ -112,9 +114,33 @@ const prt::ui::Theme& themeOf(const Options& options) {
   return chosen ? *chosen : darkTheme();
 }
 
+bool asksForHelp(int argc, char** argv) {
+  return std::any_of(argv + 1, argv + argc, [](std::string_view argument) {
+    return argument == "-h" || argument == "--help" || argument == "--help-all" || argument == "-v" ||
+           argument == "--version";
+  });
+}
+
+// Help needs no display; all else does. Qt would end the program with a page about its plugins.
+void lookForDisplay(int argc, char** argv) {
+  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+    if (!qEnvironmentVariableIsEmpty(name)) return;
+  if (asksForHelp(argc, argv)) {
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+  } else {
+    std::fputs(
+        "prt-studio: there is no display; start it in a desktop session, or use prt, the command line\n",
+        stderr);
+    std::exit(1);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef Q_OS_LINUX
+  lookForDisplay(argc, argv);
+#endif
   prt::ui::GlCanvas::requestFormat();
   QApplication application(argc, argv);
   QApplication::setApplicationName(QStringLiteral("prt-studio"));

@@ -229,8 +229,11 @@ ProductPtr makeDirect(StageRun& run) {
 
 ProductPtr makeTransfer(StageRun& run) {
   TransferSettings settings = transferSettings(run.recipe());
-  // The first preview comes at once, with shadows; bounces come with the next.
-  if (run.fromPreview() && run.inputState("direct").level == 1) settings.bounces = 0;
+  // The first preview comes at once, with shadows, in the form that is quick to make; bounces come with the next.
+  if (run.fromPreview() && run.inputState("direct").level == 1) {
+    settings.bounces = 0;
+    if (settings.form == TransferForm::Matrix) settings.form = TransferForm::Visibility;
+  }
   const Scene scene = withMaterials(*run.input<SceneProduct>("scene")->scene, run.recipe());
   std::map<std::string, Array> state;  // after the last bounce
   const auto keep = [&] { run.keepCheckpoint([&] { return ProductData{"{}", state}; }); };

@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr int kTestRays = 64;
+constexpr int kTestRays = 64, kFirstRays = 16;
 constexpr double kNearlyClosed = 0.1;
 constexpr int kFewOpen = kTestRays / 8;
 
@@ -90,7 +90,7 @@ std::vector<float> edgeLengths(const TriMesh& mesh) {
   return sum;
 }
 
-/// What a closer look at a sample asks of its rays.
+/// What a closer look at a sample asks of its rays. Most samples need no more than a few.
 class CloserLook {
  public:
   CloserLook(const Scene& scene, const SampleSet& samples)
@@ -99,14 +99,21 @@ class CloserLook {
         inside_(trianglesWithInside(scene)),
         edges_(samples.vertices > 0 ? edgeLengths(scene.mesh) : std::vector<float>()) {}
 
+  /// Whether few rays leave it open that the sample is buried or covered: of these there are many signs then.
+  bool mayBeBuried(std::span<const Hit> hits) const {
+    const auto open = std::count_if(hits.begin(), hits.end(), [](const Hit& hit) { return !hit.valid(); });
+    return countBacks(hits) > 0 || open * 4 <= std::ptrdiff_t(hits.size());
+  }
   bool buried(std::size_t sample, std::span<const Hit> hits) const {
-    const auto backs = std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
-      return hit.valid() && hit.back && inside_[hit.triangle];
-    });
-    return backs * 4 > kTestRays || covered(sample, hits);
+    return countBacks(hits) * 4 > kTestRays || covered(sample, hits);
   }
 
  private:
+  std::ptrdiff_t countBacks(std::span<const Hit> hits) const {
+    return std::count_if(hits.begin(), hits.end(),
+                         [&](const Hit& hit) { return hit.valid() && hit.back && inside_[hit.triangle]; });
+  }
+
   bool covered(std::size_t sample, std::span<const Hit> hits) const {
     if (sample >= samples_.vertices || samples_.triangle[sample] == kNone) return false;
     const std::uint32_t own = scene_.triangleObject[samples_.triangle[sample]];
@@ -130,16 +137,19 @@ std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, c
                                      std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job) {
   std::vector<std::uint8_t> buried(samples.size(), 0);
   const CloserLook look(scene, samples);
-  const RayTable table(RaySpread::Uniform, 1, 0, kTestRays, seed, job);
+  const RayTable few(RaySpread::Uniform, 1, 0, kFirstRays, seed, job);
+  const RayTable all(RaySpread::Uniform, 1, 0, kTestRays, seed, job);
   parallelFor(job, 0, samples.size(), kBakeTile, [&](std::size_t begin, std::size_t end) {
     WorldRays directions;
     std::vector<Hit> hits(kTestRays);
-    for (std::size_t s = begin; s < end; ++s) {
-      if (!candidates[s]) continue;
+    const auto trace = [&](std::size_t s, const RayTable& table) {
       directions.turn(table, bakeScramble(samples, s, seed), bakeFrame(samples, s, RaySpread::Uniform, seed));
-      rays.intersectFrom(samples.origin[s], directions.x, directions.y, directions.z, hits);
-      buried[s] = look.buried(s, hits);
-    }
+      const std::span<Hit> found(hits.data(), std::size_t(table.size()));
+      rays.intersectFrom(samples.origin[s], directions.x, directions.y, directions.z, found);
+      return found;
+    };
+    for (std::size_t s = begin; s < end; ++s)
+      buried[s] = candidates[s] && look.mayBeBuried(trace(s, few)) && look.buried(s, trace(s, all));
   });
   return buried;
 }

@@ -66,6 +66,8 @@ class Canvas {
   virtual bool settled() const = 0;
   /// Milliseconds that the last frame took: relighting, drawing, tone mapping.
   virtual double frameMilliseconds() const = 0;
+  /// Whether that frame had fewer pixels than the screen, to keep up with the hand.
+  virtual bool coarse() const { return false; }
   /// Frames that have reached the screen so far.
   virtual quint64 frames() const = 0;
   /// "OpenGL 4.5, llvmpipe" or "CPU".

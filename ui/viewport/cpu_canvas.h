@@ -28,6 +28,7 @@ class CpuCanvas : public QWidget, public Canvas {
   void setThorough(bool thorough) override;
   bool settled() const override;
   double frameMilliseconds() const override { return milliseconds_; }
+  bool coarse() const override { return frame_.size() != pixels(1); }
   quint64 frames() const override { return frames_; }
   QString describe() const override { return tr("CPU"); }
   QImage grabPicture() override;
