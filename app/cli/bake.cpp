@@ -58,6 +58,15 @@ void tell(const Session& session, const BakeSummary& s) {
                     "bounces, patch depth {5:.3f}; storage error {6:.3f} %",
                     r.texels, r.views, r.bands * r.bands, r.channels == 3 ? "RGB" : "scalar", r.bounces,
                     r.depth, 100 * r.storageError));
+    if (r.viewError) {
+      session.say(fmt::format("errors to expect of it: {:.1f} % between views, {:.1f} % beyond the outermost",
+                              100 * r.viewError->between, 100 * r.viewError->beyond));
+      if (r.views < 16 && r.viewError->between > kMuchViewError)
+        logWarning(
+            fmt::format("views of the patch differ too much to interpolate {0} x {0} of them; raise "
+                        "rtt.views to {1} or make the patch thinner",
+                        r.views, r.views < 12 ? 12 : 16));
+    }
     if (!r.warning.empty()) logWarning(r.warning);
   }
   for (const BakeSummary::StageTime& stage : s.stages)

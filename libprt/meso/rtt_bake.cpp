@@ -6,6 +6,7 @@
 #include "libprt/meso/patch_lobe.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -130,30 +131,43 @@ std::vector<Vec2> texelSamples(int supersamples, std::uint64_t seed) {
   return places;
 }
 
-Rtt viewsOfPatch(const PatchScene& patch, const PatchLight& light, const RttSettings& settings, Job& job,
-                 const std::function<void(const RttPreview&)>& preview) {
+Rtt picturesOfPatch(const PatchScene& patch, const PatchLight& light, const RttSettings& settings,
+                    std::span<const Vec3> directions, int everyRow, Job& job,
+                    const std::function<void(const RttPreview&)>& preview) {
   check(settings);
   const Layout layout(*patch.patch, light);
-  Rtt rtt(settings.texels, settings.views, settings.bands, layout.channels);
+  const int side = int(std::ceil(std::sqrt(double(directions.size()))));
+  Rtt rtt(settings.texels, side, settings.bands, layout.channels);
   rtt.colour = layout.colour;
   rtt.bounces = light.bounces;
   rtt.rays = light.rays;
   const bool factored = layout.channels == 1 && layout.colour == patch.patch->albedo.front() &&
                         !patch.patch->albedoTexture && !patch.patch->glossy() && light.channels == 1;
-  const ViewSquare square(settings.views);
-  job.begin("images of the patch", square.count(), "images");
-  for (int view = 0; view < square.count(); ++view) {
-    parallelFor(job, 0, std::size_t(rtt.texels), 1, [&](std::size_t v, std::size_t) {
-      ViewPass(patch, light, settings, rtt, factored).row(int(v), view, square.centre(view));
+  const int count = int(directions.size());
+  const auto rows = std::size_t((rtt.texels + everyRow - 1) / everyRow);
+  job.begin("images of the patch", count, "images");
+  for (int view = 0; view < count; ++view) {
+    parallelFor(job, 0, rows, 1, [&](std::size_t row, std::size_t) {
+      ViewPass(patch, light, settings, rtt, factored)
+          .row(int(row) * everyRow, view, directions[std::size_t(view)]);
     });
     job.advance(1);
-    if (preview) preview({rtt, view + 1, square.count(), false});
+    if (preview) preview({rtt, view + 1, count, false});
   }
   return rtt;
 }
 
-Rtt bakeRtt(const PatchScene& patch, const RttSettings& settings, Job& job,
-            const std::function<void(const RttPreview&)>& preview) {
+Rtt viewsOfPatch(const PatchScene& patch, const PatchLight& light, const RttSettings& settings, Job& job,
+                 const std::function<void(const RttPreview&)>& preview) {
+  const Rtt empty(1, settings.views, 1, 1);  // refuses what is out of range
+  const ViewSquare square(settings.views);
+  std::vector<Vec3> centres;
+  for (int view = 0; view < square.count(); ++view) centres.push_back(square.centre(view));
+  return picturesOfPatch(patch, light, settings, centres, 1, job, preview);
+}
+
+PatchLight bakePatchLight(const PatchScene& patch, const RttSettings& settings, Job& job,
+                          const std::function<void(const RttPreview&)>& preview) {
   check(settings);
   PatchTransferBake bake(patch, settings.transfer());
   while (!bake.done()) {
@@ -164,7 +178,12 @@ Rtt bakeRtt(const PatchScene& patch, const RttSettings& settings, Job& job,
     const Rtt first = viewsOfPatch(patch, bake.basisLight(job), coarse, job);
     preview({first, 0, first.viewCount(), true});
   }
-  return viewsOfPatch(patch, bake.basisLight(job), settings, job, preview);
+  return bake.basisLight(job);
+}
+
+Rtt bakeRtt(const PatchScene& patch, const RttSettings& settings, Job& job,
+            const std::function<void(const RttPreview&)>& preview) {
+  return viewsOfPatch(patch, bakePatchLight(patch, settings, job, preview), settings, job, preview);
 }
 
 }  // namespace prt

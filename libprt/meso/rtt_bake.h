@@ -14,6 +14,8 @@
 #include "libprt/meso/rtt.h"
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace prt {
 
@@ -47,9 +49,20 @@ struct RttPreview {
 Rtt bakeRtt(const PatchScene& patch, const RttSettings& settings, Job& job,
             const std::function<void(const RttPreview&)>& preview = {});
 
+/// The first part alone: light (of basis functions) on the patch's surface. The one preview is coarse.
+PatchLight bakePatchLight(const PatchScene& patch, const RttSettings& settings, Job& job,
+                          const std::function<void(const RttPreview&)>& preview = {});
+
 /// The last part alone: pictures of a patch on whose surface the light is known (of basis functions).
 Rtt viewsOfPatch(const PatchScene& patch, const PatchLight& light, const RttSettings& settings, Job& job,
                  const std::function<void(const RttPreview&)>& preview = {});
+
+/// The same pictures along other views: a table whose first "views" are along `directions`, at most 1024, in
+/// this order (it has as many cells as a square needs; its own lookups between views mean nothing). Rows of
+/// texels that `everyRow` does not divide stay zero.
+Rtt picturesOfPatch(const PatchScene& patch, const PatchLight& light, const RttSettings& settings,
+                    std::span<const Vec3> directions, int everyRow, Job& job,
+                    const std::function<void(const RttPreview&)>& preview = {});
 
 /// Where the samples of every texel lie, relative to the texel: [supersamples^2] in [0,1)^2, stratified.
 std::vector<Vec2> texelSamples(int supersamples, std::uint64_t seed);

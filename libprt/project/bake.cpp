@@ -92,7 +92,8 @@ BakeSummary::RttFacts describeRtt(const RttProduct& product, const PatchProduct*
           r.bounces,
           patch && patch->patch ? double(patch->patch->depth()) : 0,
           patch && patch->patch ? thinPatchWarning(*patch->patch, r.views) : "",
-          product.storageError};
+          product.storageError,
+          product.viewError};
 }
 
 }  // namespace
@@ -177,6 +178,10 @@ nlohmann::json toJson(const BakeSummary& s) {
                    {"bands", s.rtt->bands},     {"channels", s.rtt->channels},
                    {"bounces", s.rtt->bounces}, {"depth", s.rtt->depth},
                    {"warning", s.rtt->warning}, {"storage_error", s.rtt->storageError}};
+  if (s.rtt && s.rtt->viewError) {
+    json["rtt"]["view_error_between"] = s.rtt->viewError->between;
+    json["rtt"]["view_error_beyond"] = s.rtt->viewError->beyond;
+  }
   if (s.atlas)
     json["atlas"] = {{"charts", s.atlas->charts},
                      {"stretch_l2", s.atlas->l2},

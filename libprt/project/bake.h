@@ -1,6 +1,7 @@
 #pragma once
 // A whole bake, as the command line and the studio run it: recipe in, saved project out.
 
+#include "libprt/meso/view_error.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/scenes.h"
 #include "libprt/transport/interpolation_floor.h"
@@ -58,6 +59,7 @@ struct BakeSummary {
     double depth = 0;     ///< of the patch, relative to its width
     std::string warning;  ///< when it is too thick; empty: it is not
     double storageError = 0;
+    std::optional<ViewError> viewError;  ///< of interpolating between views
   };
   std::optional<RttFacts> rtt;  ///< when there is a patch
 };

@@ -162,15 +162,16 @@ ProductPtr PatchProduct::load(ProductData data) {
 
 ProductData RttProduct::save() const {
   if (!rtt) return {};
-  const json meta{{"texels", rtt->texels},
-                  {"views", rtt->views},
-                  {"bands", rtt->bands},
-                  {"channels", rtt->channels},
-                  {"colour", colourJson(rtt->colour)},
-                  {"bounces", rtt->bounces},
-                  {"rays", rtt->rays},
-                  {"storage", int(storage)},
-                  {"storageError", storageError}};
+  json meta{{"texels", rtt->texels},
+            {"views", rtt->views},
+            {"bands", rtt->bands},
+            {"channels", rtt->channels},
+            {"colour", colourJson(rtt->colour)},
+            {"bounces", rtt->bounces},
+            {"rays", rtt->rays},
+            {"storage", int(storage)},
+            {"storageError", storageError}};
+  if (viewError) meta["viewErrorBetween"] = viewError->between, meta["viewErrorBeyond"] = viewError->beyond;
   ProductData data{meta.dump(), {}};
   StoredRtt stored = storeRtt(*rtt, typeOf(storage));
   data.arrays["values"] = std::move(stored.values);
@@ -203,6 +204,8 @@ ProductPtr RttProduct::load(ProductData data) {
   rtt.bounces = whole("bounces", 0, kMaxPatchBounces);
   rtt.rays = whole("rays", 0, kMaxRays);
   product->storageError = number(meta, "storageError", 0, 1e9);
+  if (meta.contains("viewErrorBetween"))
+    product->viewError = {number(meta, "viewErrorBetween", 0, 1e9), number(meta, "viewErrorBeyond", 0, 1e9)};
   restoreRtt(stored, rtt);
   for (const float x : rtt.values)
     if (!std::isfinite(x)) unfit("rtt");
@@ -272,7 +275,12 @@ ProductPtr makeRttStage(StageRun& run) {
       product->rtt = std::make_shared<const Rtt>(p.rtt);
       run.preview(product, p.viewsDone + 1, p.viewsWanted + 1);
     };
-  return rounded(bakeRtt(scene, settings, run.job(), preview), run.recipe().rtt.storage);
+  const PatchLight light = bakePatchLight(scene, settings, run.job(), preview);
+  Rtt rtt = viewsOfPatch(scene, light, settings, run.job(), preview);
+  const ViewError viewError = measureViewError(scene, light, settings, rtt, run.job());
+  const std::shared_ptr<RttProduct> product = rounded(std::move(rtt), run.recipe().rtt.storage);
+  product->viewError = viewError;
+  return product;
 }
 
 std::shared_ptr<const RttProduct> bakedRtt(Pipeline& pipeline, const Recipe& recipe,

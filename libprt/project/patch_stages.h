@@ -3,10 +3,11 @@
 
 #include "libprt/meso/patch.h"
 #include "libprt/meso/patch_build.h"
-#include "libprt/meso/rtt_bake.h"
+#include "libprt/meso/view_error.h"
 #include "libprt/project/stages.h"
 
 #include <memory>
+#include <optional>
 
 namespace prt {
 
@@ -24,7 +25,8 @@ struct PatchProduct : Product {
 struct RttProduct : Product {
   std::shared_ptr<const Rtt> rtt;  ///< values as they come out of the storage type
   RttStorage storage = RttStorage::Float;
-  double storageError = 0;  ///< relative, of rounding to it
+  double storageError = 0;             ///< relative, of rounding to it
+  std::optional<ViewError> viewError;  ///< of what was baked from a patch; none for imported images
 
   ProductData save() const override;
   static ProductPtr load(ProductData data);

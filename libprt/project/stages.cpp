@@ -110,6 +110,7 @@ std::vector<Stage> makeStages() {
        .load = PatchProduct::load},
       {.name = "rtt",
        .makes = "how the patch answers to light, for every texel and view",
+       .version = 2,
        .inputs = {"patch"},
        .reads = {"rtt"},
        .wanted = hasPatch,
@@ -229,7 +230,8 @@ ProductPtr makeDirect(StageRun& run) {
 
 ProductPtr makeTransfer(StageRun& run) {
   TransferSettings settings = transferSettings(run.recipe());
-  // The first preview comes at once, with shadows, in the form that is quick to make; bounces come with the next.
+  // The first preview comes at once, with shadows, in the form that is quick to make; bounces come with the
+  // next.
   if (run.fromPreview() && run.inputState("direct").level == 1) {
     settings.bounces = 0;
     if (settings.form == TransferForm::Matrix) settings.form = TransferForm::Visibility;
