@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> lights;
   int zoom = 4;
   double exposure = 0;
-  bool errors = false;
+  bool errors = false, exact = false;
 };
 
 /// "x,y,z" towards the viewer in the patch's frame, or "azimuth,elevation" in degrees.
@@ -87,15 +87,31 @@ nlohmann::json compression(Session& session, const Rtt& rtt) {
   return {{"terms", curve}, {"storage", storage}};
 }
 
+/// The patch that the project holds.
+std::shared_ptr<const Patch> patchOf(Pipeline& pipeline, const Recipe& recipe, const std::string& project) {
+  const auto product = pipeline.find(recipe, {"patch"}).get<PatchProduct>("patch");
+  if (!product || !product->patch)
+    throw ValueError("has no patch to render", project, "only generated patches and meshes have a surface");
+  return product->patch;
+}
+
+/// A table of one view: the patch itself from there, traced.
+Rtt exactly(Session& session, const Options& options, const std::shared_ptr<const Patch>& patch,
+            const Recipe& recipe) {
+  const RttSettings settings = rttSettings(resolved(recipe));
+  const PatchScene scene = makePatchScene(patch, session.job());
+  const Vec3 view = parseView(options.view);
+  return picturesOfPatch(scene, bakePatchLight(scene, settings, session.job()), settings, {&view, 1}, 1,
+                         session.job());
+}
+
 /// The 8192 pictures of equation (5).
-std::size_t writeBtf(Session& session, const Options& options, const PatchProduct* patch,
+std::size_t writeBtf(Session& session, const Options& options, const std::shared_ptr<const Patch>& patch,
                      const Recipe& recipe) {
-  if (!patch || !patch->patch)
-    throw ValueError("has no patch to render", options.project, "BTFs come from generated patches");
   const LightSet lights = lightGrid();
   BtfWriter writer(options.btf, lights);
   RttSettings settings = rttSettings(resolved(recipe));
-  renderBtf(makePatchScene(patch->patch, session.job()), settings, lights, session.job(),
+  renderBtf(makePatchScene(patch, session.job()), settings, lights, session.job(),
             [&](const BtfView& view) { writer.add(view, session.job()); });
   const std::size_t count = writer.finish();
   session.say(fmt::format("wrote {} images and a manifest.json to {}", count, options.btf));
@@ -112,13 +128,16 @@ void rtt(Session& session, const Options& options) {
   const Recipe& recipe = project->recipe();
   const auto baked = bakedRtt(pipeline, recipe, options.project);
   nlohmann::json result{{"texels", baked->rtt->texels}, {"views", baked->rtt->views}};
-  if (!options.output.empty())
-    preview(session, options, *baked->rtt, recipe, folder), result["picture"] = options.output;
-  if (options.errors) result["errors"] = compression(session, *baked->rtt);
-  if (!options.btf.empty()) {
-    const auto patch = pipeline.find(recipe, {"patch"}).get<PatchProduct>("patch");
-    result["images"] = writeBtf(session, options, patch.get(), recipe);
+  if (!options.output.empty()) {
+    const Rtt shown = options.exact
+                          ? exactly(session, options, patchOf(pipeline, recipe, options.project), recipe)
+                          : Rtt(*baked->rtt);
+    preview(session, options, shown, recipe, folder);
+    result["picture"] = options.output;
   }
+  if (options.errors) result["errors"] = compression(session, *baked->rtt);
+  if (!options.btf.empty())
+    result["images"] = writeBtf(session, options, patchOf(pipeline, recipe, options.project), recipe);
   session.result(result);
 }
 
@@ -146,6 +165,9 @@ void addRtt(CLI::App& app, Action& action) {
       ->check(finite())
       ->check(CLI::Range(-30.0, 30.0))
       ->capture_default_str();
+  command->add_flag(
+      "--exact", options->exact,
+      "Trace the patch itself from the view instead of interpolating between the table's views");
   command->add_flag("--errors", options->errors, "Errors of fewer terms (SVD) and of smaller number formats");
   command->add_option(
       "--btf", options->btf,
