@@ -17,6 +17,7 @@ namespace prt {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kWasteful = 1e100;  // the score of what leaves too much of a convex hull empty
 
 using Corners = std::array<DVec2, 3>;
 
@@ -26,6 +27,7 @@ struct Piece {
   std::vector<std::uint32_t> arcs;  // seams and borders around and inside
   double area = 0;                  // on the surface
   double energy = 0;                // squared L2 stretch times area
+  double waste = 0;                 // of its flat map's convex hull, what is no chart
   int version = 0;
   bool alive = true;
 };
@@ -34,6 +36,7 @@ struct Piece {
 struct Trial {
   bool possible = false;
   double energy = 0;
+  double waste = 0;
   std::vector<std::uint32_t> triangles;
   std::vector<Corners> uv;
 };
@@ -73,6 +76,27 @@ Similarity fit(const std::vector<std::pair<DVec2, DVec2>>& pairs) {
   const double norm = std::hypot(cosine, sine);
   if (norm > 0) motion.cosine = cosine / norm, motion.sine = sine / norm;
   return motion;
+}
+
+double hullArea(std::vector<DVec2> points) {
+  // Andrew's monotone chain.
+  std::sort(points.begin(), points.end(),
+            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  double area = 0;
+  for (const int side : {1, -1}) {
+    std::vector<DVec2> chain;
+    for (const DVec2& p : points) {
+      while (chain.size() >= 2) {
+        const DVec2 e = chain.back() - chain[chain.size() - 2], d = p - chain.back();
+        if (side * (e.x * d.y - e.y * d.x) > 0) break;
+        chain.pop_back();
+      }
+      chain.push_back(p);
+    }
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+      area += side * 0.5 * (chain[i].x * chain[i + 1].y - chain[i].y * chain[i + 1].x);
+  }
+  return std::abs(area);
 }
 
 }  // namespace
@@ -131,6 +155,9 @@ struct ClusterMerge::State {
     if (!(l2 < options.chartStretch)) return trial;
     trial.possible = true;
     trial.energy = l2 * l2 * area;
+    std::vector<DVec2> rim;
+    for (std::uint32_t v : flat.rim) rim.push_back(map[v]);
+    trial.waste = hullArea(std::move(rim)) - stretchOf(flat.positions, map, flat.triangles).flatArea;
     trial.triangles = chart.faces;
     for (const UVec3& t : chart.triangles) trial.uv.push_back({map[t.x], map[t.y], map[t.z]});
     return trial;
@@ -273,8 +300,13 @@ struct ClusterMerge::State {
   double energyNow(const Candidate& c) const {
     return c.a == c.b ? pieces[c.a].energy : pieces[c.a].energy + pieces[c.b].energy;
   }
+  double wasteNow(const Candidate& c) const {
+    return c.a == c.b ? pieces[c.a].waste : pieces[c.a].waste + pieces[c.b].waste;
+  }
   double scoreOf(const Candidate& c) const {
-    return std::max(0.0, c.trial->energy - energyNow(c)) / totalArea / c.gain;
+    const double waste = std::max(0.0, c.trial->waste - wasteNow(c));
+    if (waste / totalArea > options.wasteBound * c.gain) return kWasteful;
+    return (std::max(0.0, c.trial->energy - energyNow(c)) + options.wasteWeight * waste) / totalArea / c.gain;
   }
 
   /// Joins two charts, or shortens a slit.
@@ -304,6 +336,7 @@ struct ClusterMerge::State {
     std::sort(piece.arcs.begin(), piece.arcs.end());
     piece.arcs.erase(std::unique(piece.arcs.begin(), piece.arcs.end()), piece.arcs.end());
     piece.energy = candidate.trial->energy;
+    piece.waste = candidate.trial->waste;
     ++piece.version;
     for (std::size_t i = 0; i < candidate.trial->triangles.size(); ++i)
       uv[candidate.trial->triangles[i]] = candidate.trial->uv[i];
@@ -346,6 +379,10 @@ void ClusterMerge::run(Job& job) {
         continue;
       }
       c.score = s.scoreOf(c);
+      if (c.score == kWasteful) {  // until one of the two has grown
+        c.trial.reset();
+        continue;
+      }
       queue.push({c.score, i});
     }
   };

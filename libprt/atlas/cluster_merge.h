@@ -12,6 +12,9 @@ namespace prt {
 struct MergeOptions {
   double stretch = 1.10;       ///< bound on the L2 stretch over all charts together
   double chartStretch = 1.25;  ///< and of each one
+  /// Charts that fill their convex hulls pack well, and unfold easily: hull that becomes no chart counts like
+  /// stretch, and so much of it for a length of seam (all relative to the surface) is too much.
+  double wasteWeight = 1.5, wasteBound = 0.06;
   double chartBonus = 0.03;  ///< what one chart less is worth, as seam length in roots of the surface's area
 };
 

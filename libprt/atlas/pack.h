@@ -34,7 +34,7 @@ struct PackChart {
 struct PackOptions {
   int size = 2048;  ///< texels along a side
   int gutter = 1;   ///< empty texels around each chart, hence twice as many between two
-  int turns = 16;   ///< directions tried per chart, 1..64
+  int turns = 16;   ///< directions tried per chart, 1..64; from 8 on others between them too
 };
 
 /// Places charts that are not locked at one common scale, as large as goes in: sides of texels are covered

@@ -68,7 +68,7 @@ TEST(PackMask, HoldsEveryCellNearTheOutline) {
 }
 
 RC_GTEST_PROP(PackGridProperty, FindsThePlaceThatTryingAllFinds, ()) {
-  constexpr int kSize = 70;  // crosses a word
+  const int kSize = *rc::gen::element(70, 130, 256, 300);  // cross words
   PackGrid grid(kSize);
   std::set<std::pair<int, int>> taken;
   PackMask dot;
@@ -86,6 +86,7 @@ RC_GTEST_PROP(PackGridProperty, FindsThePlaceThatTryingAllFinds, ()) {
     const int begin = *rc::gen::inRange(0, mask.width), end = *rc::gen::inRange(begin + 1, mask.width + 1);
     mask.rows.push_back({{begin, end}});
   }
+  if (*rc::gen::arbitrary<bool>()) prepareSearch(mask);
   int x = -1, y = -1, plainX = -1, plainY = -1;
   const bool found = grid.find(mask, kSize, x, y);
   for (int v = 0; v + mask.height <= kSize && plainY < 0; ++v)
@@ -98,6 +99,78 @@ RC_GTEST_PROP(PackGridProperty, FindsThePlaceThatTryingAllFinds, ()) {
     }
   RC_ASSERT(found == (plainY >= 0));
   RC_ASSERT(x == plainX && y == plainY);
+  if (!found) return;
+  // How snug it lies there: sides of cells that meet taken ones or the rim of the square.
+  const auto isTaken = [&](int u, int v) {
+    return u < 0 || v < 0 || u >= kSize || v >= kSize || taken.contains({u, v});
+  };
+  int sides = 0;
+  for (int r = 0; r < mask.height; ++r)
+    for (const PackMask::Run& run : mask.rows[std::size_t(r)]) {
+      for (int c = run.begin; c < run.end; ++c)
+        sides += isTaken(x + c, y + r - 1) + isTaken(x + c, y + r + 1);
+      sides += isTaken(x + run.begin - 1, y + r) + isTaken(x + run.end, y + r);
+    }
+  RC_ASSERT(std::abs(grid.contact(mask, x, y) * 2 * (mask.width + mask.height) - sides) < 1e-9);
+}
+
+RC_GTEST_PROP(PackBitsProperty, KnowsWhatIsFree, ()) {
+  constexpr int kSize = 150;
+  PackBits bits(kSize);
+  std::set<std::pair<int, int>> taken;
+  const auto maskOf = [](int width, int height) {
+    PackMask mask;
+    mask.width = width, mask.height = height;
+    mask.rows.assign(std::size_t(height), {{0, width}});
+    return mask;
+  };
+  for (int i = 0; i < 12; ++i) {
+    const int w = *rc::gen::inRange(1, 80), h = *rc::gen::inRange(1, 4);
+    const int x = *rc::gen::inRange(0, kSize - w), y = *rc::gen::inRange(0, 20 - h);
+    const bool set = i % 3 != 2;
+    bits.set(maskOf(w, h), x, y, set);
+    for (int v = y; v < y + h; ++v)
+      for (int u = x; u < x + w; ++u) {
+        if (set)
+          taken.insert({u, v});
+        else
+          taken.erase({u, v});
+      }
+  }
+  const int w = *rc::gen::inRange(1, 140), x = *rc::gen::inRange(0, kSize - w), y = *rc::gen::inRange(0, 20);
+  bool free = true;
+  for (int u = x; u < x + w; ++u) free = free && !taken.contains({u, y});
+  RC_ASSERT(bits.isFree(maskOf(w, 1), x, y) == free);
+}
+
+double filledBy(const std::vector<PackChart>& charts, const std::vector<ChartPlacement>& places) {
+  double filled = 0;
+  for (std::size_t c = 0; c < charts.size(); ++c)
+    filled += charts[c].flatArea * places[c].scale * places[c].scale;
+  return filled;
+}
+
+TEST(PackCharts, SquaresFillTheSquareAndSmallOnesTheHolesOfRings) {
+  Job job;
+  const std::vector<PackChart> squares(16, PackChart{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1, 1, 1});
+  EXPECT_GT(filledBy(squares, packCharts(squares, {}, {.size = 1024}, job)), 0.93);
+  // A C that nearly fills the square alone, and four bars for its hole.
+  std::vector<PackChart> letter{
+      {{{0, 0}, {9, 0}, {9, 2}, {2, 2}, {2, 7}, {9, 7}, {9, 9}, {0, 9}}, 46, 46, 1}};
+  for (int i = 0; i < 4; ++i) letter.push_back({{{0, 0}, {6.5, 0}, {6.5, 1.1}, {0, 1.1}}, 7.15, 7.15, 1});
+  EXPECT_GT(filledBy(letter, packCharts(letter, {}, {.size = 1024}, job)), 0.8);
+}
+
+TEST(PackCharts, FewTurnsAreTheOnlyOnes) {
+  Job job;
+  std::vector<PackChart> charts;
+  for (int i = 0; i < 9; ++i) charts.push_back({{{0, 0}, {2.0 + i, 0}, {1, 1.0 + i}}, 1, 1, 1});
+  const auto places = packCharts(charts, {}, {.size = 256, .turns = 4}, job);
+  const auto again = packCharts(charts, {}, {.size = 256, .turns = 1}, job);
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    const double quarters = (places[c].angle - again[c].angle) / (kPi / 2);
+    EXPECT_NEAR(quarters, std::round(quarters), 1e-9);
+  }
 }
 
 TEST(PackCharts, ScalesByAreaAndWeight) {
