@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "ui/bench_bakes.h"
+#include "ui/bench_charts.h"
 #include "ui/bench_hand.h"
 #include "ui/main_window.h"
 #include "ui/model/session.h"
@@ -114,6 +115,7 @@ class Bench {
     out["while_baking"] = dragInView(Qt::LeftButton, Qt::ShiftModifier, 4 * options.frames, true);
     session_.bakes().cancel();
     out.update(measureBakes(hand_));
+    out.update(measureCharts(hand_));
     session_.project().giveUp();
     return out;
   }

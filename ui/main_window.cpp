@@ -41,6 +41,7 @@
 #include <QStatusTipEvent>
 
 #include <memory>
+#include <utility>
 
 namespace prt::ui {
 
@@ -126,6 +127,12 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       [view = QPointer(viewport_)] { return view ? thumbnailOf(*view) : QByteArray(); });
   connect(&session_, &Session::statusChanged, strip_, &WorkflowStrip::refresh);
   connect(&session_.charts(), &ChartEditor::changed, strip_, &WorkflowStrip::refresh);
+  // The knife's keys are the viewport's, wherever it was taken from.
+  connect(&session_.charts(), &ChartEditor::cutChanged, this, [this, cutting = false]() mutable {
+    const bool now = session_.charts().cutting();
+    if (now && !std::exchange(cutting, now)) viewport_->setFocus();
+    cutting = now;
+  });
   // A chart is selected where it is clicked, on the model too.
   connect(viewport_, &Viewport::clicked, this, [this](const QPointF& at, Qt::KeyboardModifiers) {
     if (!session_.charts().watched()) return;

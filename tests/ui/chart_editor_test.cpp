@@ -7,6 +7,7 @@
 #include "libprt/mesh/mesh_reader.h"
 #include "libprt/mesh/mesh_writer.h"
 #include "libprt/mesh/repair.h"
+#include "libprt/project/pipeline.h"
 #include "tests/ui/small_scene.h"
 #include "tests/ui/wait.h"
 #include "ui/model/chart_picture.h"
@@ -210,6 +211,20 @@ TEST_F(ChartEditorTest, AMovedChartMovesAlone) {
   session.document().undo();
   settle();
   EXPECT_NEAR(glm::distance(charts.items()[0].placement->offset, before[0].placement->offset), 0, 1e-6);
+}
+
+TEST_F(ChartEditorTest, WhatIsBakedIsWhatIsShown) {
+  open("builtin:bird", ChartsMode::Auto);
+  autoCut();
+  charts.setWeight(0, 1.5);
+  charts.setCornerCount(1, 6);
+  settle();
+  ASSERT_TRUE(charts.atlas());
+  Job job;
+  const auto baked = Pipeline(nullptr, {}).run(recipe(), {"atlas"}, job).get<AtlasProduct>("atlas");
+  EXPECT_EQ(baked->atlas->uv, charts.atlas()->uv);
+  EXPECT_EQ(baked->atlas->uvTriangles, charts.atlas()->uvTriangles);
+  EXPECT_NEAR(baked->facts.l2 / charts.numbers().l2, 1, 0.002) << "but for the grid of the coordinates";
 }
 
 TEST_F(ChartEditorTest, OverlapsAreShownAtOnceAndPackedAway) {

@@ -101,6 +101,10 @@ Section* ChartDock::makeAtlas() {
          "stretch, or texels per area against the mean. Off: the lit surface."));
   connect(shade_, &QComboBox::activated, &charts_,
           [this](int index) { charts_.setShade(ChartShade(index)); });
+  for (QComboBox* box : {shown_, shade_}) {  // the column may be narrow
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+  }
   section->addLayout(side({shown_, shade_}));
   section->add(view_);
   setRole(numbers_, "muted");
@@ -157,7 +161,8 @@ Section* ChartDock::makeCut() {
                      [this] { charts_.applyAllSuggestions(); });
   clear_ = makeButton("chartClear", tr("Remove all cuts"), tr("Takes all cuts of all objects away."),
                       [this] { charts_.removeAllCuts(); });
-  section->addLayout(side({mend_, clear_}));
+  section->add(mend_);
+  section->add(clear_);
   for (const char* path : {"charts.mode", "charts.stretch", "charts.creases"})
     section->add(new PropertyRow(session_.document(), QLatin1String(path)));
   return section;
@@ -220,7 +225,7 @@ Section* ChartDock::makePack() {
       [this] { charts_.packAll(); });
   section->add(pack_);
   import_ = makeButton(
-      "chartImport", tr("Use the mesh's UVs"),
+      "chartImport", tr("Import UVs"),
       tr("The meshes' own texture coordinates as the atlas. Where they overlap it is shown, and refused "
          "when baked. A cut makes them yours to change."),
       [this] { charts_.useImported(); });
@@ -347,6 +352,9 @@ void ChartDock::refreshChart() {
   const std::array<QWidget*, 3> fields{weight_, corners_, locked_};
   if (c < 0) {
     chartFacts_->setText(tr("None: click one on the model or in the atlas.\n"));
+    weight_->setValue(1);
+    corners_->setValue(0);
+    locked_->setChecked(false);
     for (QWidget* each : fields) each->setEnabled(false);
     return;
   }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kTellMilliseconds = 15, kPaintMilliseconds = 50;
 constexpr std::size_t kKeptMaps = 4000;
+constexpr std::size_t kAtOnce = 200000;  // triangles that are flooded while the interface waits: some 50 ms
 
 // What tells one chart from another: its triangles and where it is cut.
 Hash128 shapeOf(const Chart& chart) {
@@ -69,7 +70,9 @@ ChartEditor::ChartEditor(Session& session, QObject* parent)
   connect(&session_.document(), &Document::opened, this, &ChartEditor::forget);
   connect(&session_.document(), &Document::recipeChanged, this, &ChartEditor::follow);
   connect(&session_.document(), &Document::stateChanged, this, [this] {
-    if (pending_ && !session_.document().inGesture()) work();
+    if (!pending_ || session_.document().inGesture()) return;
+    live_.reset();
+    work();
   });
   connect(&session_.relighter(), &Relighter::sceneChanged, this, &ChartEditor::follow);
 }
@@ -108,7 +111,7 @@ void ChartEditor::forget() {
   items_.clear(), keys_.clear(), shapes_.clear(), maps_.clear(), packed_.clear(), failed_.clear();
   atlas_.reset();
   problems_.clear(), problemTriangles_.clear(), error_.clear();
-  read_ = needsSurface_ = false;
+  read_ = needsSurface_ = chartsStale_ = false;
   selectedFace_ = kNowhere;
   touch(true);
   Q_EMIT cutChanged();
@@ -153,20 +156,23 @@ void ChartEditor::readRecipe() {
   std::vector<ChartSettings> settings;
   try {
     settings = chartSettingsOf(recipe, *on_->scene);
-    const bool cuts = !read_ || texts != seamTexts_ || recipe.charts.mode != chartsRecipe_.mode;
+    const bool cuts =
+        !read_ || chartsStale_ || texts != seamTexts_ || recipe.charts.mode != chartsRecipe_.mode;
     if (!cuts && settings == settings_ && recipe.charts == chartsRecipe_ && recipe.atlas == atlasRecipe_)
       return;
     error_.clear();
     if (cuts) {
+      chartsStale_ = false;
       seams_ = Seams(on_->surface);
       auto charts = std::make_shared<Charts>();
       problems_.clear(), problemTriangles_.clear();
       if (recipe.charts.mode == ChartsMode::Manual) {
         seams_ = drawnSeams(recipe, *on_->scene, on_->surface);
+        chartsStale_ = on_->surface.triangleCount() > kAtOnce;
         Job patient;
-        *charts = makeCharts(on_->surface, seams_, patient);
+        if (!chartsStale_) *charts = makeCharts(on_->surface, seams_, patient);
       }
-      charts_ = std::move(charts);
+      if (!chartsStale_) charts_ = std::move(charts);
       if (path_) path_->follow(seams_);
     }
     read_ = true;
@@ -184,8 +190,32 @@ void ChartEditor::readRecipe() {
   stopWork();
   atlas_.reset();
   if (recipe.charts.mode == ChartsMode::Imported) return readImported();
+  if (chartsStale_) return findCharts();
   makeItems();
   startWork();
+  touch(true);
+  Q_EMIT cutChanged();
+}
+
+// On large surfaces the flood runs behind the interface too; until it is done the old charts are shown.
+void ChartEditor::findCharts() {
+  auto found = std::make_shared<Charts>();
+  const quint64 run = run_;
+  job_ = session_.jobs().startQuietly(
+      QStringLiteral("charts"), tr("Find charts"),
+      [found, on = on_, seams = seams_](Job& job) { *found = makeCharts(on->surface, seams, job); },
+      [box = mailbox_, found, run](const JobInfo& info) {
+        if (!box->owner || run != box->owner->run_) return;
+        ChartEditor& e = *box->owner;
+        e.job_ = 0;
+        if (info.state != JobState::Done) return e.touch(true);
+        e.chartsStale_ = false;
+        e.charts_ = found;
+        e.makeItems();
+        e.startWork();
+        e.touch(true);
+        Q_EMIT e.cutChanged();
+      });
   touch(true);
   Q_EMIT cutChanged();
 }
@@ -265,13 +295,32 @@ void ChartEditor::startWork() {
   const bool flat = std::all_of(items_.begin(), items_.end(),
                                 [](const ChartItem& i) { return i.bad() || (i.map && i.map->final); });
   // While a chart is dragged nothing but its place changes: the rest can wait.
-  if (flat && session_.document().inGesture())
-    pending_ = true;
-  else
-    work();
+  if (!session_.document().inGesture()) {
+    live_.reset();
+    return work();
+  }
+  if (!flat) followCorners();
+  pending_ = true;
 }
 
-void ChartEditor::work() {
+// Of a chart whose corner is dragged, previews only: the map that counts is made from the beginning when it
+// is let go, as baking makes it.
+void ChartEditor::followCorners() {
+  std::optional<std::size_t> moved;
+  for (std::size_t c = 0; c < items_.size(); ++c) {
+    const ChartItem& item = items_[c];
+    if (item.bad() || (item.map && item.map->final)) continue;
+    if (moved || item.settings.corners.empty()) return work();
+    moved = c;
+  }
+  if (!live_ || live_->shape != shapes_[*moved]) {
+    live_ = std::make_shared<LiveChart>();
+    live_->shape = shapes_[*moved];
+  }
+  work(live_, *moved);
+}
+
+void ChartEditor::work(std::shared_ptr<LiveChart> live, std::size_t liveChart) {
   stopWork();
   pending_ = false;
   if (!on_ || items_.empty()) return;
@@ -280,8 +329,11 @@ void ChartEditor::work() {
   request->seams = seams_;
   request->charts = charts_;
   request->recipe = session_.document().recipe();
+  request->live = std::move(live);
+  request->liveChart = liveChart;
   for (const ChartItem& item : items_) {
     request->leave.push_back(item.bad());
+    request->roughly = request->roughly || (!item.bad() && !item.placement);
     request->settings.push_back(item.settings);
     request->known.push_back(item.map && item.map->final ? item.map : nullptr);
   }
@@ -300,6 +352,8 @@ void ChartEditor::work() {
   news->failed = [post](std::size_t c, const std::string& why) {
     post([c, why](ChartEditor& e) {
       e.items_[c].error = e.failed_[e.keys_[c]] = QString::fromStdString(why);
+      e.items_[c].map.reset();
+      e.items_[c].placement.reset();
       e.touch(true);
     });
   };
@@ -428,7 +482,10 @@ void ChartEditor::paint() {
       paint.seams.edges.push_back(on_->surface.positions[ends.y]);
     }
   }
-  session_.layers().setPaint(std::move(paint));
+  // A picture of the model takes longer than all else here: none without a reason.
+  const SurfacePaint& old = session_.layers().paint();
+  const bool same = paint.colors == old.colors && paint.uv == old.uv && paint.seams.edges == old.seams.edges;
+  if (!same) session_.layers().setPaint(std::move(paint));
 }
 
 }  // namespace prt::ui

@@ -168,12 +168,14 @@ class ChartEditor : public QObject {
   void takeSurface(std::shared_ptr<const CutSurface> on);
   void readRecipe();
   void readImported();
+  void findCharts();
   void makeItems();
   void place(std::size_t chart);
   void placeAll();
   void findOverlaps();
   void startWork();
-  void work();
+  void work(std::shared_ptr<LiveChart> live = {}, std::size_t liveChart = 0);
+  void followCorners();
   void stopWork();
   void editSeams(const QString& name, const Seams& seams);
   void editSettings(const QString& name, int chart, const std::function<void(ChartSettings&)>& change);
@@ -214,6 +216,7 @@ class ChartEditor : public QObject {
   QString error_;
   double seamLength_ = 0;
   bool overlapsStale_ = false;
+  bool chartsStale_ = false;  // of seams_: they are on their way
 
   std::uint32_t selectedFace_ = kNowhere;
   ChartShade shade_ = ChartShade::Charts;
@@ -221,7 +224,8 @@ class ChartEditor : public QObject {
   std::optional<CutPath> path_;
   quint64 run_ = 0;  // results of older runs are dropped
   quint64 job_ = 0, autoJob_ = 0;
-  bool pending_ = false;  // work waits for the end of a gesture
+  std::shared_ptr<LiveChart> live_;  // while a corner is dragged
+  bool pending_ = false;             // work waits for the end of a gesture
   QTimer touched_, repaint_;
 };
 

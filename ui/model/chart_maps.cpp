@@ -13,13 +13,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenMaps = std::chrono::milliseconds(60);  // that are told, of one chart
+constexpr std::size_t kFew = 200;                             // charts that are packed in a moment
 
 class Layer {
  public:
   Layer(const ChartWork& work, const ChartNews& news, Job& job)
-      : work_(work), news_(news), job_(job), maps_(work.known), running_(work.charts->charts.size()) {}
+      : work_(work),
+        news_(news),
+        job_(job),
+        maps_(work.known),
+        latest_(work.known),
+        running_(work.charts->charts.size()) {}
 
   void run() {
+    if (work_.live) return followCorners();
     suggest();
     layFlat();
     pack();
@@ -34,6 +41,34 @@ class Layer {
   };
   const std::vector<Chart>& charts() const { return work_.charts->charts; }
   static std::string nameOf(std::size_t c) { return "chart " + std::to_string(c + 1); }
+
+  // The boundary and what it drags along in one solve, then on towards the minimum.
+  void followCorners() {
+    LiveChart& live = *work_.live;
+    const std::lock_guard alone(live.busy);
+    const std::size_t c = work_.liveChart;
+    try {
+      if (!live.map) {
+        live.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], nameOf(c));
+        FlattenOptions options =
+            flattenOptionsFor(*live.flat, work_.settings[c], flattenOptionsOf(work_.recipe.charts));
+        options.name = nameOf(c);
+        live.map = std::make_unique<Flattening>(*live.flat, options, job_);
+      } else {
+        live.map->setCorners(cornersAt(live.flat->rimLengths, work_.settings[c].corners), job_);
+      }
+      Clock::time_point told = tellMap(c, *live.map, false);
+      bool first = true;
+      while (live.map->step(job_)) {
+        if (first || Clock::now() - told >= kBetweenMaps) told = tellMap(c, *live.map, false);
+        first = false;
+      }
+      tellMap(c, *live.map, false);
+    } catch (const Error& error) {
+      live.map.reset();
+      news_.failed(c, error.problem());
+    }
+  }
 
   void suggest() {
     for (std::size_t c = 0; c < charts().size(); ++c) {
@@ -60,6 +95,8 @@ class Layer {
       return charts()[a].faces.size() < charts()[b].faces.size();
     });
     each(order, [this](std::size_t c) { start(c); });
+    if (work_.roughly && charts().size() <= kFew) pack();
+    job_.begin("laying charts flat", 2 * triangles, "triangles", triangles);
     std::reverse(order.begin(), order.end());
     each(order, [this](std::size_t c) { finish(c); });
   }
@@ -73,6 +110,7 @@ class Layer {
         } catch (const Error& error) {
           running_[order[i]] = {};
           const std::lock_guard lock(mutex_);
+          latest_[order[i]].reset();
           news_.failed(order[i], error.problem());
         }
         job_.advance(double(charts()[order[i]].faces.size()));
@@ -102,26 +140,31 @@ class Layer {
     run = {};
   }
 
-  void tell(std::size_t c, bool final) {
-    Running& run = running_[c];
+  void tell(std::size_t c, bool final) { running_[c].told = tellMap(c, *running_[c].map, final); }
+
+  Clock::time_point tellMap(std::size_t c, const Flattening& from, bool final) {
     auto map = std::make_shared<FlatMap>();
-    map->uv = run.map->uv();
-    map->stretch = run.map->stretch();
-    map->corners = run.map->corners();
+    map->uv = from.uv();
+    map->stretch = from.stretch();
+    map->corners = from.corners();
     map->final = final;
-    run.told = Clock::now();
     const std::lock_guard lock(mutex_);
     if (final) maps_[c] = map;
+    latest_[c] = map;
     news_.map(c, std::move(map));
+    return Clock::now();
   }
 
   void pack() {
     std::vector<std::size_t> usable;
-    for (std::size_t c = 0; c < maps_.size(); ++c)
-      if (maps_[c]) usable.push_back(c);
+    bool final = true;
+    for (std::size_t c = 0; c < latest_.size(); ++c) {
+      if (latest_[c]) usable.push_back(c);
+      final = final && maps_[c];
+    }
     if (usable.empty()) return;
     try {
-      PackedCharts packed = usable.size() == maps_.size() ? packAll() : packSome(usable);
+      PackedCharts packed = final ? packAll() : packSome(usable);
       news_.packed(std::move(packed));
     } catch (const Error& error) {
       news_.notPacked(error.what());
@@ -147,9 +190,9 @@ class Layer {
     std::vector<PackChart> outlines;
     std::vector<ChartPlacement> locked;
     for (const std::size_t c : usable) {
-      const StretchSum& s = maps_[c]->stretch;
+      const StretchSum& s = latest_[c]->stretch;
       outlines.push_back(
-          {outlineOf(charts()[c], maps_[c]->uv), charts()[c].area, s.flatArea, work_.settings[c].weight});
+          {outlineOf(charts()[c], latest_[c]->uv), charts()[c].area, s.flatArea, work_.settings[c].weight});
       locked.push_back(work_.settings[c].place.value_or(ChartPlacement{}));
     }
     const AtlasRecipe& atlas = work_.recipe.atlas;
@@ -163,7 +206,7 @@ class Layer {
   const ChartWork& work_;
   const ChartNews& news_;
   Job& job_;
-  std::vector<FlatMapPtr> maps_;
+  std::vector<FlatMapPtr> maps_, latest_;  // final ones; those told last
   std::vector<Running> running_;
   std::mutex mutex_;
 };

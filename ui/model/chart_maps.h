@@ -2,11 +2,13 @@
 // What the chart editor does behind the interface: suggests cuts for charts that are no disks, lays the
 // others flat, packs them. Results are told as they come, the first maps at once. Without Qt.
 
+#include "libprt/core/hash.h"
 #include "libprt/project/atlas_stages.h"
 #include "ui/model/cut_path.h"
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,14 @@ struct PackedCharts {
   AtlasFacts facts;                        ///< of the atlas
 };
 
+/// A chart whose corners are being dragged. What was factored for it is kept from one place to the next.
+struct LiveChart {
+  Hash128 shape;    ///< says which chart it is
+  std::mutex busy;  ///< one job at a time
+  std::unique_ptr<FlatChart> flat;
+  std::unique_ptr<Flattening> map;
+};
+
 struct ChartWork {
   std::shared_ptr<const CutSurface> on;
   Seams seams;
@@ -36,6 +46,9 @@ struct ChartWork {
   std::vector<FlatMapPtr> known;        ///< [charts] null: to be laid flat
   std::vector<std::uint8_t> leave;      ///< [charts] no disk, or failed before
   Recipe recipe;                        ///< charts.* and atlas.*
+  std::shared_ptr<LiveChart> live;  ///< then nothing but this chart follows its corners, and no map is final
+  std::size_t liveChart = 0;        ///< its number
+  bool roughly = false;             ///< pack the first maps too: some chart has no place yet
 };
 
 /// Called from any thread, one at a time.

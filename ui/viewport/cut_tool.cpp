@@ -40,7 +40,8 @@ CutTool::CutTool(ChartEditor& charts, const SceneRays& rays, Pick pick, QObject*
     : Manipulator(parent), charts_(charts), rays_(rays), pick_(std::move(pick)) {
   setEnabled(charts_.cutting());
   connect(&charts_, &ChartEditor::cutChanged, this, [this] {
-    hovered_.reset();
+    const bool cutting = charts_.cutting() && charts_.ready();
+    if (!cutting || (hovered_ && *hovered_ >= charts_.on()->surface.vertexCount())) hovered_.reset();
     hoveredCut_.reset();
     setEnabled(charts_.cutting());
     Q_EMIT changed();

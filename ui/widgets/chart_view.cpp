@@ -152,11 +152,14 @@ QPointF ChartView::cornerAt(int corner) const {
 
 QString ChartView::emptyText() const {
   if (!charts_.ready()) return tr("Reading the surface\u2026");
-  if (one_)
-    return charts_.selected() < 0 ? tr("Select a chart\nin the atlas or on the model.")
-                                  : tr("Not laid flat yet.");
+  const int chart = charts_.selected();
+  if (one_ && chart >= 0 && charts_.items()[std::size_t(chart)].map) return {};
+  if (one_) return chart < 0 ? tr("Select a chart\nin the atlas or on the model.") : tr("Not laid flat yet.");
   if (charts_.items().empty())
     return tr("No charts yet.\nAuto cut makes them, or press K\nand draw cuts on the model.");
+  const auto bad = [](const ChartItem& item) { return item.bad(); };
+  if (std::all_of(charts_.items().begin(), charts_.items().end(), bad))
+    return tr("No chart can be laid flat yet.\nCut further, or as suggested.");
   return {};
 }
 

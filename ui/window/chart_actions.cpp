@@ -71,7 +71,7 @@ void fillChartMenu(QMenu& menu, Session& session, ChartDock& dock, const std::fu
   }
   menu.addSeparator();
   QAction* import =
-      add(menu, "importCoordinates", tr("&Use the mesh's UVs"),
+      add(menu, "importCoordinates", tr("&Import UVs"),
           tr("The meshes' own texture coordinates as the atlas."), [&charts] { charts.useImported(); });
   QAction* write = add(menu, "exportCoordinates", tr("&Export UVs\u2026"),
                        tr("The mesh with the atlas as its texture coordinates: OBJ, glTF or GLB."),
