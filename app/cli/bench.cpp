@@ -12,6 +12,7 @@ namespace {
 struct Options {
   std::string name, mesh;
   int repetitions = 0;
+  bool large = false;
 };
 
 std::vector<std::string> benchNames() {
@@ -37,7 +38,11 @@ void bench(Session& session, const Options& options) {
   requireKnown(options.name);
   if (!options.mesh.empty() && options.name != "atlas")
     throw UsageError("bench " + options.name + " takes no mesh", "--mesh", "use it with bench atlas");
-  const BenchResult result = options.mesh.empty()
+  if (options.large && (options.name != "atlas" || !options.mesh.empty()))
+    throw UsageError("only bench atlas without a mesh has a large shape", "--large",
+                     "use it with bench atlas");
+  const BenchResult result = options.large ? runLargeAtlasBench(session.job())
+                             : options.mesh.empty()
                                  ? runBench(options.name, session.job(), options.repetitions)
                                  : runAtlasBench(options.mesh, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
@@ -66,6 +71,7 @@ void addBench(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   command->add_option("--mesh", options->mesh, "bench atlas: a mesh file instead of the built-in shapes");
+  command->add_flag("--large", options->large, "bench atlas: a million triangles against a hundred thousand");
   command->footer(listOfBenches);
   command->callback([options, &action] { action = [options](Session& s) { bench(s, *options); }; });
 }

@@ -123,7 +123,7 @@ struct LaidChart {
 };
 
 LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t number,
-                   const FlattenOptions& options, const CoarseGuess* guess, Job& job) {
+                   const FlattenOptions& options, const CoarseGuess* guess, double& left, Job& job) {
   LaidChart laid;
   FlattenOptions named = options;
   named.name = chartName(number);
@@ -134,7 +134,13 @@ LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t numbe
     start = asRigidAsPossible(flat, (*guess)(chart, flat), kRounds, job);
     if (!untangle(flat, start, job)) start.clear();  // from Tutte's map, which takes a little longer
   }
-  laid.uv = flatten(flat, named, job, start.empty() ? nullptr : &start);
+  // How many steps it will take nobody knows: each takes an eighth of what is left of the chart's progress.
+  const auto stepDone = [&](const std::vector<DVec2>&) {
+    constexpr double kPart = 0.125;
+    job.advance(left * kPart);
+    left -= left * kPart;
+  };
+  laid.uv = flatten(flat, named, job, start.empty() ? nullptr : &start, stepDone);
   laid.stretch = stretchOf(flat.positions, laid.uv, flat.triangles);
   return laid;
 }
@@ -206,15 +212,16 @@ class FineCut {
           }
         }
         LaidChart laid;
+        double left = double(chart.faces.size());  // of its progress
         try {
-          laid = layChart(surface_, chart, order[i], options_.flatten, &guess_, job_);
+          laid = layChart(surface_, chart, order[i], options_.flatten, &guess_, left, job_);
         } catch (const GeometryError&) {
           laid.failed = true;
         }
         const std::lock_guard lock(mutex);
         known_[key] = laid;
         laid_[order[i]] = std::move(laid);
-        job_.advance(double(chart.faces.size()));
+        job_.advance(left);
       }
     });
   }
@@ -250,9 +257,10 @@ class FineCut {
     bool changed = false;
     for (std::uint32_t c : again) changed |= undo(c) || halve(c);
     if (changed) return true;
+    double none = 0;
     for (std::uint32_t c : again)  // a single triangle that cannot be laid flat: the error names it
       if (laid_[c].failed)
-        laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, job_);
+        laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, none, job_);
     return false;
   }
 
@@ -355,6 +363,9 @@ FlatCharts autoCut(const Surface& surface, std::span<const float> costs, const A
   MergeOptions merging;
   merging.stretch = 1 + 0.85 * (options.stretch - 1);  // the surface is rougher than its coarse copy
   merging.chartStretch = 1 + 0.85 * (options.chartStretch - 1);
+  // One chart's equations take more than its share of time when it is large.
+  constexpr double kLargest = 80000;  // triangles
+  merging.chartArea = kLargest / double(std::max<std::size_t>(1, surface.triangleCount()));
   ClusterMerge merge(complex, merging);
   merge.run(job);
   FlatCharts charts = FineCut(surface, costs, options, clusters, complex, merge, job).run();
@@ -394,12 +405,13 @@ FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const Flatt
   parallelFor(job, 0, order.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const Chart& chart = result.charts.charts[order[i]];
-      LaidChart laid = layChart(surface, chart, order[i], options, nullptr, job);
+      double left = double(chart.faces.size());
+      LaidChart laid = layChart(surface, chart, order[i], options, nullptr, left, job);
       const std::lock_guard lock(mutex);
       result.stretch[order[i]] = laid.stretch;
       result.uv[order[i]] = std::move(laid.uv);
       if (preview) preview(order[i], result.uv[order[i]]);
-      job.advance(double(chart.faces.size()));
+      job.advance(left);
     }
   });
   return result;

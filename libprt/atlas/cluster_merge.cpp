@@ -272,6 +272,7 @@ struct ClusterMerge::State {
                            .trial = nullptr});
         continue;
       }
+      if (pieces[piece].area + pieces[other].area > options.chartArea * totalArea) continue;
       // Chains: arcs that follow each other through places where nothing else ends.
       std::unordered_map<std::uint32_t, std::uint32_t> at;  // node -> arc
       UnionFind sets(arcs.size());

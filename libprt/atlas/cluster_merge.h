@@ -12,6 +12,7 @@ namespace prt {
 struct MergeOptions {
   double stretch = 1.10;       ///< bound on the L2 stretch over all charts together
   double chartStretch = 1.25;  ///< and of each one
+  double chartArea = 1;        ///< largest part of the surface that one chart may be
   /// Charts that fill their convex hulls pack well, and unfold easily: hull that becomes no chart counts like
   /// stretch, and so much of it for a length of seam (all relative to the surface) is too much.
   double wasteWeight = 1.5, wasteBound = 0.06;
