@@ -104,7 +104,7 @@ std::vector<ChartPlacement> packCharts(std::span<const PackChart> charts,
   if (task.free.empty()) return {locked.begin(), locked.end()};
   job.begin("packing", 3, "passes");
   constexpr int kCoarse = 256, kFine = 512;        // cells
-  constexpr double kWork = 500, kFineWork = 1000;  // charts placed
+  constexpr double kWork = 600, kFineWork = 1400;  // charts placed
   PackLayout layout = searchLayout(task, std::min(options.size, kCoarse), kWork, job);
   job.advance(1);
   if (layout.part > 0 && options.size > kCoarse)

@@ -57,7 +57,8 @@ class LayoutSearch {
   /// Chains of orders: what found no place comes earlier, and when all fit, all grow.
   void grow() {
     std::vector<std::vector<std::uint32_t>> orders(kChains, best_.order);
-    const int rounds = std::max(1, int(work_ / double(task_.free.size()) / double(kChains)));
+    const double share = work_ / double(task_.free.size() * kChains);
+    const int rounds = std::clamp(int(share), 1, task_.free.size() < 16 ? 8 : 24);
     double step = 0.02;
     int failures = 0;
     for (int round = 0; round < rounds && step > 0.002; ++round) {
