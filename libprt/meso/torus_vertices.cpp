@@ -23,8 +23,8 @@ struct Cell {
 };
 struct CellHash {
   std::size_t operator()(const Cell& c) const {
-    return std::size_t(c.x * 0x9e3779b97f4a7c15 ^ c.y * std::int64_t(0x6a09e667f3bcc909) ^
-                       c.z * 0x27d4eb2f165667c5);
+    return std::uint64_t(c.x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(c.y) * 0x6a09e667f3bcc909u ^
+           std::uint64_t(c.z) * 0x27d4eb2f165667c5u;
   }
 };
 constexpr std::int64_t kCells = 50'000;  // per period
