@@ -1,6 +1,11 @@
 #include "tests/fuzz/mesh_harness.h"
 #include "tests/fuzz/written.h"
 
+#include <string>
+#include <string_view>
+
+using namespace std::string_view_literals;
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return prt::fuzz::fuzzMesh(prt::parsePly, data, size);
 }
@@ -23,8 +28,7 @@ const prt::fuzz::Target prt::fuzz::target{
                "6 0 1 2 3 -1 0\n",
                std::string(
                    "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty short x\nproperty char y\n"
-                   "property double z\nend_header\n\0\1\2\0\0\0\0\0\0\0\0",
-                   128)});
+                   "property double z\nend_header\n\0\1\2\0\0\0\0\0\0\0\0"sv)});
         },
     .words = {"element vertex ", "element face ", "property list uchar int vertex_indices\n",
               "property float x\n", "end_header\n", "format ascii 1.0\n", "format binary_little_endian 1.0\n",
