@@ -5,6 +5,7 @@
 #include "tests/ui/studio_fixture.h"
 #include "ui/docks/rtt_dock.h"
 #include "ui/model/patch_presets.h"
+#include "ui/model/told_path.h"
 #include "ui/widgets/message_bar.h"
 #include "ui/widgets/patch_canvas.h"
 #include "ui/widgets/preset_grid.h"
@@ -12,10 +13,17 @@
 #include "ui/widgets/rtt_square.h"
 #include "ui/widgets/view_grid.h"
 
+#include <QAction>
+#include <QApplication>
+#include <QDialogButtonBox>
 #include <QDockWidget>
+#include <QFileDialog>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QTemporaryDir>
+#include <QTimer>
 
 namespace prt::ui {
 namespace {
@@ -122,6 +130,32 @@ TEST_F(PatchDockTest, AFileThatIsNotThereIsToldBesideTheShape) {
   EXPECT_TRUE(message->text().contains(s("relief.png"))) << message->text().toStdString();
   session.document().undo();
   ASSERT_TRUE(waitFor([&] { return !message->isVisible(); }));
+}
+
+TEST_F(PatchDockTest, AFileIsChosenInADialogAndToldFromTheProjectsFolder) {
+  openAndSettle();
+  bring("patch");
+  session.bakes().setAutomatic(false);
+  choose("Stucco");
+  const QTemporaryDir pictures;
+  const QString file = pictures.filePath(s("relief.png"));
+  QImage picture(8, 8, QImage::Format_Grayscale8);
+  picture.fill(90);
+  ASSERT_TRUE(picture.save(file));
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  QTimer poll;
+  QObject::connect(&poll, &QTimer::timeout, &window, [&] {
+    auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+    if (!dialog || !dialog->isVisible()) return;
+    if (QWidget* popup = QApplication::activePopupWidget()) popup->close();
+    dialog->findChild<QLineEdit*>(s("fileNameEdit"))->setText(file);
+    QTest::mouseClick(dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open), Qt::LeftButton);
+  });
+  poll.start(50);
+  row("patch.heightmap")->findChild<QAction*>(s("browse"))->trigger();
+  poll.stop();
+  EXPECT_EQ(QString::fromStdString(patch().heightmap), toldPath(session.document(), file));
+  EXPECT_NE(undoName(), s("Patch: stucco")) << "a step of its own";
 }
 
 TEST_F(PatchDockTest, TheTextureIsBakedAndLitByTheLightOfTheScene) {

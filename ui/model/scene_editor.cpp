@@ -5,6 +5,7 @@
 #include "libprt/mesh/repair.h"
 #include "ui/model/scene_edits.h"
 #include "ui/model/session.h"
+#include "ui/model/told_path.h"
 
 #include <QFileInfo>
 
@@ -41,15 +42,8 @@ const ObjectRecipe* SceneEditor::objectAt(int object) const {
   return object >= 0 && object < int(objects.size()) ? &objects[std::size_t(object)] : nullptr;
 }
 
-// As the recipe tells paths: from the project's folder, or from the root while it has none.
 QString SceneEditor::documentPath(const QString& file) const {
-  if (isBuiltinName(file)) return file;
-  namespace fs = std::filesystem;
-  const fs::path absolute = QFileInfo(file).absoluteFilePath().toStdString();
-  const QString project = session_.document().path();
-  const fs::path folder = project.isEmpty() ? fs::path("/") : fs::path(project.toStdString()).parent_path();
-  const fs::path relative = absolute.lexically_relative(folder);
-  return QString::fromStdString((relative.empty() ? absolute : relative).generic_string());
+  return isBuiltinName(file) ? file : toldPath(session_.document(), file);
 }
 
 void SceneEditor::edit(const QString& name, const Recipe& next) {

@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "ui/model/expression.h"
+#include "ui/model/told_path.h"
 #include "ui/widgets/color_field.h"
 #include "ui/widgets/number_field.h"
 #include "ui/widgets/theme.h"
@@ -14,6 +15,7 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QContextMenuEvent>
+#include <QFileDialog>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -254,6 +256,16 @@ QWidget* PropertyRow::makeVector() {
 
 QWidget* PropertyRow::makeText() {
   auto* field = new QLineEdit;
+  if (parameter_.type == ParameterType::File) {
+    QAction* browse = field->addAction(icon(QStringLiteral("document-open")), QLineEdit::TrailingPosition);
+    browse->setObjectName(QStringLiteral("browse"));
+    browse->setToolTip(tr("Choose a file"));
+    connect(browse, &QAction::triggered, this, [this] {
+      const QString file = QFileDialog::getOpenFileName(window(), tr("Choose a file: %1").arg(label_->text()),
+                                                        QString::fromStdString(document_.folder().string()));
+      if (!file.isEmpty()) apply(toldPath(document_, file));
+    });
+  }
   connect(field, &QLineEdit::editingFinished, this, [this, field] { apply(field->text()); });
   show_ = [this, field] {
     const nlohmann::json value = getByPath(document_.recipe(), path_.toStdString());
