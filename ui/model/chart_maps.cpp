@@ -13,7 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kBetweenMaps = std::chrono::milliseconds(60);  // that are told, of one chart
-constexpr std::size_t kFew = 200;                             // charts that are packed in a moment
+constexpr int kRoughTexels = 64;
+constexpr std::size_t kFew = 200;  // charts that are packed in a moment
 
 class Layer {
  public:
@@ -95,7 +96,7 @@ class Layer {
       return charts()[a].faces.size() < charts()[b].faces.size();
     });
     each(order, [this](std::size_t c) { start(c); });
-    if (work_.roughly && charts().size() <= kFew) pack();
+    if (work_.roughly && charts().size() <= kFew) packRoughly();
     job_.begin("laying charts flat", 2 * triangles, "triangles", triangles);
     std::reverse(order.begin(), order.end());
     each(order, [this](std::size_t c) { finish(c); });
@@ -155,17 +156,29 @@ class Layer {
     return Clock::now();
   }
 
-  void pack() {
-    std::vector<std::size_t> usable;
-    bool final = true;
-    for (std::size_t c = 0; c < latest_.size(); ++c) {
-      if (latest_[c]) usable.push_back(c);
-      final = final && maps_[c];
-    }
-    if (usable.empty()) return;
+  std::vector<std::size_t> usable() const {
+    std::vector<std::size_t> charts;
+    for (std::size_t c = 0; c < latest_.size(); ++c)
+      if (latest_[c]) charts.push_back(c);
+    return charts;
+  }
+
+  // So that new charts are seen at once: coarsely, in a few directions, and no matter when they do not fit.
+  void packRoughly() {
+    if (usable().empty()) return;
     try {
-      PackedCharts packed = final ? packAll() : packSome(usable);
-      news_.packed(std::move(packed));
+      news_.packed(packSome(usable(), {.size = kRoughTexels, .gutter = 0, .turns = 4}));
+    } catch (const Error&) {
+    }
+  }
+
+  void pack() {
+    if (usable().empty()) return;
+    const bool all =
+        std::all_of(maps_.begin(), maps_.end(), [](const FlatMapPtr& map) { return map != nullptr; });
+    const AtlasRecipe& atlas = work_.recipe.atlas;
+    try {
+      news_.packed(all ? packAll() : packSome(usable(), {atlas.size, atlas.gutter, atlas.turns}));
     } catch (const Error& error) {
       news_.notPacked(error.what());
     }
@@ -186,20 +199,19 @@ class Layer {
     return packed;
   }
 
-  PackedCharts packSome(const std::vector<std::size_t>& usable) {
+  PackedCharts packSome(const std::vector<std::size_t>& which, const PackOptions& options) {
     std::vector<PackChart> outlines;
     std::vector<ChartPlacement> locked;
-    for (const std::size_t c : usable) {
+    for (const std::size_t c : which) {
       const StretchSum& s = latest_[c]->stretch;
       outlines.push_back(
           {outlineOf(charts()[c], latest_[c]->uv), charts()[c].area, s.flatArea, work_.settings[c].weight});
       locked.push_back(work_.settings[c].place.value_or(ChartPlacement{}));
     }
-    const AtlasRecipe& atlas = work_.recipe.atlas;
-    const auto placed = packCharts(outlines, locked, {atlas.size, atlas.gutter, atlas.turns}, job_);
+    const auto placed = packCharts(outlines, locked, options, job_);
     PackedCharts packed;
     packed.placements.assign(maps_.size(), ChartPlacement{.scale = 0});
-    for (std::size_t i = 0; i < usable.size(); ++i) packed.placements[usable[i]] = placed[i];
+    for (std::size_t i = 0; i < which.size(); ++i) packed.placements[which[i]] = placed[i];
     return packed;
   }
 

@@ -33,12 +33,6 @@ double distance(const QPointF& a, const QPointF& b) {
   return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
-DVec2 boxMiddle(const std::vector<DVec2>& uv) {
-  DVec2 low(1e300), high(-1e300);
-  for (const DVec2& p : uv) low = min(low, p), high = max(high, p);
-  return 0.5 * (low + high);
-}
-
 DVec2 turned(const DVec2& v, double angle) {
   return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
 }
@@ -284,7 +278,10 @@ void ChartView::paintLegend(QPainter& painter) const {
   painter.drawText(QRectF(scale.right() + 4, bar.top() - 6, highWidth + 4, 18), Qt::AlignVCenter, high);
 }
 
+// A square whatever is written below it: a column that is short of room would press it flat, in the middle of
+// a drag.
 void ChartView::resizeEvent(QResizeEvent*) {
+  if (minimumHeight() != width()) setFixedHeight(width());
   stale_ = true;
 }
 
@@ -372,8 +369,10 @@ void ChartView::mouseMoveEvent(QMouseEvent* event) {
 
 void ChartView::dragChart(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   const bool snap = !(modifiers & Qt::ControlModifier);
-  const DVec2 local = boxMiddle(charts_.items()[std::size_t(chart_)].map->uv);
-  const DVec2 pivot = atPress_(local), from = toPlane(pressedAt_) - pivot, to = toPlane(at) - pivot;
+  // About the middle of the box that is seen; the pan of a view does not change while a chart is dragged.
+  const DVec2 pivot = toPlane(boxOf(chart_, atPress_).center());
+  const DVec2 local = turned(pivot - atPress_.offset, -atPress_.angle) / atPress_.scale;
+  const DVec2 from = toPlane(pressedAt_) - pivot, to = toPlane(at) - pivot;
   ChartPlacement p = atPress_;
   if (grip_ == Grip::Move) {
     p.offset += to - from;
@@ -386,8 +385,7 @@ void ChartView::dragChart(const QPointF& at, Qt::KeyboardModifiers modifiers) {
     if (snap && (modifiers & Qt::ShiftModifier || std::abs(p.angle - nearest) < radians(kTurnSnap)))
       p.angle = nearest;
   }
-  if (grip_ != Grip::Move)
-    p.offset = pivot - p.scale * turned(local, p.angle);  // about the middle of its box
+  if (grip_ != Grip::Move) p.offset = pivot - p.scale * turned(local, p.angle);
   charts_.setPlacement(chart_, p);
 }
 
