@@ -2,12 +2,10 @@
 
 #include "ui/widgets/theme.h"
 
-#include <QEvent>
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollArea>
-#include <QScrollBar>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -56,30 +54,13 @@ void Section::setOpen(bool open) {
   Q_EMIT toggled(open);
 }
 
-namespace {
-
-// Never narrower than what it holds and its own scroll bar: nothing is cut off at the side.
-class ColumnScroll : public QScrollArea {
- public:
-  QSize minimumSizeHint() const override {
-    const int content = widget() ? widget()->minimumSizeHint().width() : 0;
-    return {content + verticalScrollBar()->sizeHint().width(), QScrollArea::minimumSizeHint().height()};
-  }
-  bool eventFilter(QObject* watched, QEvent* event) override {
-    if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
-    return QScrollArea::eventFilter(watched, event);
-  }
-};
-
-}  // namespace
-
 DockColumn::DockColumn(QWidget* parent) : QWidget(parent), rows_(nullptr) {
   auto* content = new QWidget;
   rows_ = new QVBoxLayout(content);
   rows_->setContentsMargins(0, kGrid, 0, kGrid);
   rows_->setSpacing(kGrid);
   rows_->addStretch(1);
-  auto* scroll = new ColumnScroll;
+  auto* scroll = new QScrollArea;
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   scroll->setFrameShape(QFrame::NoFrame);
