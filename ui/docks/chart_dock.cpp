@@ -29,11 +29,15 @@ namespace {
 
 constexpr int kMostFaults = 6;  // that are listed; all are on the model
 
+// Side by side, in equal parts of however narrow the dock is.
 QHBoxLayout* side(std::initializer_list<QWidget*> widgets) {
   auto* row = new QHBoxLayout;
   row->setContentsMargins(0, 2, 0, 2);
   row->setSpacing(kGrid);
-  for (QWidget* each : widgets) row->addWidget(each, 1);
+  for (QWidget* each : widgets) {
+    each->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    row->addWidget(each, 1);
+  }
   return row;
 }
 
