@@ -47,8 +47,8 @@ inline Float8 load8(const float* p) {
 
 // ---- Matrix ----
 
-/// Runs of consecutive samples [first, first + count) that are wanted at `result`; the last matrix of the
-/// array is copied first, since the kernels read a little beyond what they use.
+/// Runs of consecutive samples [first, first + count) that are wanted at `result`; matrices at the end of the
+/// array are copied first, since the kernels read a little beyond what they use.
 template <class T>
 void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t first, std::size_t count,
                  const std::vector<Rgb>& light, Rgb* result) {
@@ -56,13 +56,14 @@ void multiplyRun(const MatrixLayout& layout, const T* matrices, std::size_t firs
     const MatrixProduct product{samples, layout.channels, layout.functions, &light[0].x, &to[0].x};
     wideKernelRuns() ? multiplyMatricesWide(from, product) : multiplyMatrices(from, product);
   };
-  const std::size_t size = layout.sampleSize();
-  const bool last = first + count == layout.samples;
-  if (count > (last ? 1u : 0u)) run(matrices + first * size, count - (last ? 1 : 0), result);
-  if (!last) return;
-  std::vector<T> padded(size + kKernelOverread);
-  std::copy_n(matrices + (layout.samples - 1) * size, size, padded.begin());
-  run(padded.data(), 1, result + (count - 1) * layout.functions);
+  const std::size_t size = layout.sampleSize(), last = (kKernelOverread + size - 1) / size;
+  const std::size_t end = layout.samples - std::min(layout.samples, last);  // what may be read in place
+  const std::size_t inPlace = std::min(count, end - std::min(end, first)), copied = count - inPlace;
+  if (inPlace > 0) run(matrices + first * size, inPlace, result);
+  if (copied == 0) return;
+  std::vector<T> padded(copied * size + kKernelOverread);
+  std::copy_n(matrices + (first + inPlace) * size, copied * size, padded.begin());
+  run(padded.data(), copied, result + inPlace * layout.functions);
 }
 
 template <class T>

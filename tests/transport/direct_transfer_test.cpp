@@ -389,7 +389,8 @@ TEST(DirectTransfer, OriginsThatAreNotFiniteAreCountedAndHarmless) {
   DirectBake bake(input.scene, input.rays, std::make_shared<SampleSet>(broken), settings(64));
   while (!bake.done()) bake.advance(job);
   EXPECT_GE(input.rays->refusedRays(), 64u);
-  const std::span<const float> values = bake.product(job).visibility.as<float>();
+  const DirectTransfer product = bake.product(job);
+  const std::span<const float> values = product.visibility.as<float>();
   EXPECT_TRUE(std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }));
 }
 

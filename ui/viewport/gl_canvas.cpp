@@ -44,6 +44,8 @@ GlCanvas::GlCanvas(CanvasContext context, QWidget* parent)
 
 GlCanvas::~GlCanvas() {
   release();
+  if (context())  // it goes with the base class, when this is no canvas any more
+    disconnect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &GlCanvas::release);
 }
 
 void GlCanvas::requestFormat() {
