@@ -115,7 +115,7 @@ class Bench {
     out["while_baking"] = dragInView(Qt::LeftButton, Qt::ShiftModifier, 4 * options.frames, true);
     session_.bakes().cancel();
     out.update(measureBakes(hand_));
-    out.update(measureCharts(hand_));
+    if (options.charts) out.update(measureCharts(hand_));
     session_.project().giveUp();
     return out;
   }

@@ -27,6 +27,7 @@ struct Options {
   prt::ui::ErrorShown errors = prt::ui::ErrorShown::Off;
   QSize size{1440, 900};
   bool bench = false;
+  bool benchCharts = false;
   int frames = 90;
 };
 
@@ -61,6 +62,7 @@ Options parse(const QApplication& application) {
         QStringLiteral("WxH")},
        {QStringLiteral("bench"),
         QStringLiteral("measure how fast the window follows the hand, print it as JSON and end")},
+       {QStringLiteral("bench-charts"), QStringLiteral("the same, and cut charts and drag their corners")},
        {QStringLiteral("frames"), QStringLiteral("of each part of the bench, 90 by default"),
         QStringLiteral("N"), QStringLiteral("90")}});
   parser.process(application);
@@ -83,7 +85,8 @@ Options parse(const QApplication& application) {
   options.theme = parser.value(QStringLiteral("theme"));
   if (parser.isSet(QStringLiteral("theme")) && !prt::ui::themeNamed(options.theme))
     wrong(QStringLiteral("--theme takes dark or light"));
-  options.bench = parser.isSet(QStringLiteral("bench"));
+  options.benchCharts = parser.isSet(QStringLiteral("bench-charts"));
+  options.bench = options.benchCharts || parser.isSet(QStringLiteral("bench"));
   options.frames = parser.value(QStringLiteral("frames")).toInt();
   if (options.frames < 1 || options.frames > 100000)
     wrong(QStringLiteral("--frames takes a number from 1 to 100000"));
@@ -162,7 +165,8 @@ int main(int argc, char** argv) {
   }
   if (picture) window.resize(options.size);
   window.show();
-  if (options.bench) return prt::ui::runBench(window, session, {options.what, options.frames});
+  if (options.bench)
+    return prt::ui::runBench(window, session, {options.what, options.frames, options.benchCharts});
   session.open(options.what);
   session.errors().show(options.errors);
   if (picture) return prt::ui::takeScreenshot(application, window, session, options.screenshot);
