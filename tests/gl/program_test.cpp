@@ -36,7 +36,8 @@ TEST_F(ProgramTest, EveryFragmentShaderOfTheLibraryCompiles) {
       for (const char* variant : {"", "#define EVERYWHERE\n"})
         EXPECT_NO_THROW(Program::fromLibrary(
             vertex, shader.name,
-            shGlsl(bands) + "#define RESPONSE_ROWS 512\n#define SHADE_LEAST 0.5\n" + variant))
+            shGlsl(bands) + "#define RESPONSE_ROWS 512\n#define SHADE_LEAST 0.5\n#define DARK_SQUARE 0.5\n" +
+                variant))
             << shader.name << " with " << bands << " bands";
     ++count;
   }
