@@ -98,7 +98,7 @@ Atlas placeAtlas(const FlatCharts& charts, std::vector<ChartPlacement> placement
       atlas.uvTriangles[chart.faces[t]] = chart.triangles[t] + UVec3(first);
     if (const std::size_t left = Nudger(atlas, first, chart).run())
       throw GeometryError(std::to_string(left) + " triangles are too thin for texture coordinates",
-                          "chart " + std::to_string(c + 1), "repair the mesh there, or enlarge the chart");
+                          chartName(c), "repair the mesh there, or enlarge the chart");
   }
   atlas.placements = std::move(placements);
   return atlas;
@@ -109,10 +109,10 @@ Atlas packAtlas(const FlatCharts& charts, const AtlasOptions& options, Job& job)
   for (std::size_t c = 0; c < charts.charts.charts.size(); ++c) {
     const Chart& chart = charts.charts.charts[c];
     if (chart.fault() != ChartFault::None || charts.uv[c].size() != chart.vertices.size())
-      throw GeometryError("cannot be laid flat: " + faultText(chart), "chart " + std::to_string(c + 1),
+      throw GeometryError("cannot be laid flat: " + faultText(chart), chartName(c),
                           "cut it there, or repair the mesh");
     PackChart& outline = outlines.emplace_back();
-    for (std::uint32_t v : chart.loops[0]) outline.outline.push_back(charts.uv[c][v]);
+    outline.outline = outlineOf(chart, charts.uv[c]);
     outline.area = charts.charts.charts[c].area;
     outline.flatArea = charts.stretch[c].flatArea;
     if (c < options.weights.size()) outline.weight = options.weights[c];

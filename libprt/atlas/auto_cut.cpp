@@ -19,10 +19,6 @@
 namespace prt {
 namespace {
 
-std::string chartName(std::size_t number) {
-  return "chart " + std::to_string(number + 1);
-}
-
 /// Largest first, so that the last ones to finish are short.
 std::vector<std::uint32_t> bySize(const Charts& charts) {
   std::vector<std::uint32_t> order(charts.charts.size());
@@ -122,12 +118,17 @@ struct LaidChart {
   bool failed = false;
 };
 
+/// The same for every chart.
+ChartOptions alike(const FlattenOptions& options) {
+  return [&options](std::size_t, const FlatChart&) { return options; };
+}
+
 LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t number,
-                   const FlattenOptions& options, const CoarseGuess* guess, double& left, Job& job) {
+                   const ChartOptions& optionsOf, const CoarseGuess* guess, double& left, Job& job) {
   LaidChart laid;
-  FlattenOptions named = options;
-  named.name = chartName(number);
-  const FlatChart flat(surface, chart, named.name);
+  const FlatChart flat(surface, chart, chartName(number));
+  FlattenOptions options = optionsOf(number, flat);
+  options.name = chartName(number);
   std::vector<DVec2> start;
   if (guess && options.boundary == ChartBoundary::Free) {
     constexpr int kRounds = 8;
@@ -140,7 +141,7 @@ LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t numbe
     job.advance(left * kPart);
     left -= left * kPart;
   };
-  laid.uv = flatten(flat, named, job, start.empty() ? nullptr : &start, stepDone);
+  laid.uv = flatten(flat, options, job, start.empty() ? nullptr : &start, stepDone);
   laid.stretch = stretchOf(flat.positions, laid.uv, flat.triangles);
   return laid;
 }
@@ -214,7 +215,7 @@ class FineCut {
         LaidChart laid;
         double left = double(chart.faces.size());  // of its progress
         try {
-          laid = layChart(surface_, chart, order[i], options_.flatten, &guess_, left, job_);
+          laid = layChart(surface_, chart, order[i], alike(options_.flatten), &guess_, left, job_);
         } catch (const GeometryError&) {
           laid.failed = true;
         }
@@ -260,7 +261,7 @@ class FineCut {
     double none = 0;
     for (std::uint32_t c : again)  // a single triangle that cannot be laid flat: the error names it
       if (laid_[c].failed)
-        laid_[c] = layChart(surface_, charts_.charts[c], c, options_.flatten, nullptr, none, job_);
+        laid_[c] = layChart(surface_, charts_.charts[c], c, alike(options_.flatten), nullptr, none, job_);
     return false;
   }
 
@@ -391,9 +392,14 @@ std::string boundMissed(const FlatCharts& charts, double bound) {
 
 FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const FlattenOptions& options, Job& job,
                          const ChartPreview& preview) {
+  return flattenCharts(surface, seams, makeCharts(surface, seams, job), alike(options), job, preview);
+}
+
+FlatCharts flattenCharts(const Surface& surface, const Seams& seams, Charts charts,
+                         const ChartOptions& optionsOf, Job& job, const ChartPreview& preview) {
   FlatCharts result;
   result.seams = seams;
-  result.charts = makeCharts(surface, seams, job);
+  result.charts = std::move(charts);
   const std::vector<std::uint32_t> order = bySize(result.charts);
   result.uv.resize(order.size());
   result.stretch.resize(order.size());
@@ -406,7 +412,7 @@ FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const Flatt
     for (std::size_t i = first; i < last; ++i) {
       const Chart& chart = result.charts.charts[order[i]];
       double left = double(chart.faces.size());
-      LaidChart laid = layChart(surface, chart, order[i], options, nullptr, left, job);
+      LaidChart laid = layChart(surface, chart, order[i], optionsOf, nullptr, left, job);
       const std::lock_guard lock(mutex);
       result.stretch[order[i]] = laid.stretch;
       result.uv[order[i]] = std::move(laid.uv);

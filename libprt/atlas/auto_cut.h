@@ -43,8 +43,14 @@ std::string boundMissed(const FlatCharts& charts, double bound);
 FlatCharts autoCut(const Surface& surface, std::span<const float> costs, const AutoCutOptions& options,
                    Job& job);
 
+/// How one chart is to be laid flat.
+using ChartOptions = std::function<FlattenOptions(std::size_t chart, const FlatChart& flat)>;
+
 /// Lays charts flat, in parallel. Throws GeometryError that names the first one that cannot be.
 FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const FlattenOptions& options, Job& job,
                          const ChartPreview& preview = {});
+/// The same of charts that are made already, makeCharts() of the seams, each in its own way.
+FlatCharts flattenCharts(const Surface& surface, const Seams& seams, Charts charts,
+                         const ChartOptions& optionsOf, Job& job, const ChartPreview& preview = {});
 
 }  // namespace prt

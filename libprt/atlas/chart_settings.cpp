@@ -1,13 +1,11 @@
 #include "libprt/atlas/chart_settings.h"
 
 #include "libprt/core/error.h"
-#include "libprt/core/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <mutex>
 #include <numeric>
 #include <set>
 
@@ -182,38 +180,11 @@ FlattenOptions flattenOptionsFor(const FlatChart& chart, const ChartSettings& se
 
 FlatCharts flattenCharts(const Surface& surface, const Seams& seams, const FlattenOptions& options,
                          std::span<const ChartSettings> settings, Job& job) {
-  FlatCharts result;
-  result.seams = seams;
-  result.charts = makeCharts(surface, seams, job);
-  const std::vector<ChartSettings> own = settingsOfCharts(result.charts, settings);
-  const std::size_t count = own.size();
-  result.uv.resize(count);
-  result.stretch.resize(count);
-  std::vector<std::uint32_t> order(count);  // largest first, so that the last ones to finish are short
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return result.charts.charts[a].faces.size() > result.charts.charts[b].faces.size();
-  });
-  const auto nameOf = [](std::size_t c) { return "chart " + std::to_string(c + 1); };
-  for (std::size_t c = 0; c < count; ++c)  // the first one at fault is named, whatever runs first
-    if (result.charts.charts[c].fault() != ChartFault::None)
-      FlatChart(surface, result.charts.charts[c], nameOf(c));
-  job.begin("laying charts flat", double(surface.triangleCount()), "triangles");
-  std::mutex mutex;
-  parallelFor(job, 0, count, 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t c = order[i];
-      const FlatChart flat(surface, result.charts.charts[c], nameOf(c));
-      FlattenOptions mine = flattenOptionsFor(flat, own[c], options);
-      mine.name = nameOf(c);
-      std::vector<DVec2> uv = flatten(flat, mine, job);
-      const std::lock_guard lock(mutex);
-      result.stretch[c] = stretchOf(flat.positions, uv, flat.triangles);
-      result.uv[c] = std::move(uv);
-      job.advance(double(result.charts.charts[c].faces.size()));
-    }
-  });
-  return result;
+  Charts charts = makeCharts(surface, seams, job);
+  const std::vector<ChartSettings> own = settingsOfCharts(charts, settings);
+  return flattenCharts(
+      surface, seams, std::move(charts),
+      [&](std::size_t c, const FlatChart& flat) { return flattenOptionsFor(flat, own[c], options); }, job);
 }
 
 Seams seamsOfCoordinates(const Surface& surface, std::span<const UVec3> uvTriangles) {

@@ -133,6 +133,17 @@ Chart makeChart(const Surface& surface, const Seams& seams, std::span<const std:
   return chart;
 }
 
+std::string chartName(std::size_t chart) {
+  return "chart " + std::to_string(chart + 1);
+}
+
+std::vector<DVec2> outlineOf(const Chart& chart, std::span<const DVec2> uv) {
+  std::vector<DVec2> outline;
+  if (chart.loops.empty()) return outline;
+  for (const std::uint32_t v : chart.loops[0]) outline.push_back(uv[v]);
+  return outline;
+}
+
 std::string faultText(const Chart& chart) {
   const auto plural = [](int count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);

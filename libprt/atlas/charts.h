@@ -4,6 +4,7 @@
 
 #include "libprt/atlas/seams.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ Charts makeCharts(const Surface& surface, const Seams& seams, Job& job);
 /// piece, not of the surface.
 Chart makeChart(const Surface& surface, const Seams& seams, std::span<const std::uint32_t> faces);
 
+/// "chart 1" for the first: how errors and messages name it.
+std::string chartName(std::size_t chart);
+/// The first boundary in coordinates of the chart's vertices; empty where there is none.
+std::vector<DVec2> outlineOf(const Chart& chart, std::span<const DVec2> uv);
 /// "closed: no boundary to unfold from", "2 boundaries instead of 1", "1 handle"; "a disk" for none.
 std::string faultText(const Chart& chart);
 

@@ -2,6 +2,7 @@
 
 #include "libprt/atlas/arap.h"
 #include "libprt/atlas/charts.h"
+#include "libprt/atlas/convex_hull.h"
 #include "libprt/atlas/stretch.h"
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
@@ -78,27 +79,6 @@ Similarity fit(const std::vector<std::pair<DVec2, DVec2>>& pairs) {
   return motion;
 }
 
-double hullArea(std::vector<DVec2> points) {
-  // Andrew's monotone chain.
-  std::sort(points.begin(), points.end(),
-            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  double area = 0;
-  for (const int side : {1, -1}) {
-    std::vector<DVec2> chain;
-    for (const DVec2& p : points) {
-      while (chain.size() >= 2) {
-        const DVec2 e = chain.back() - chain[chain.size() - 2], d = p - chain.back();
-        if (side * (e.x * d.y - e.y * d.x) > 0) break;
-        chain.pop_back();
-      }
-      chain.push_back(p);
-    }
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i)
-      area += side * 0.5 * (chain[i].x * chain[i + 1].y - chain[i].y * chain[i + 1].x);
-  }
-  return std::abs(area);
-}
-
 }  // namespace
 
 struct ClusterMerge::State {
@@ -157,7 +137,8 @@ struct ClusterMerge::State {
     trial.energy = l2 * l2 * area;
     std::vector<DVec2> rim;
     for (std::uint32_t v : flat.rim) rim.push_back(map[v]);
-    trial.waste = hullArea(std::move(rim)) - stretchOf(flat.positions, map, flat.triangles).flatArea;
+    trial.waste =
+        polygonArea(convexHull(std::move(rim))) - stretchOf(flat.positions, map, flat.triangles).flatArea;
     trial.triangles = chart.faces;
     for (const UVec3& t : chart.triangles) trial.uv.push_back({map[t.x], map[t.y], map[t.z]});
     return trial;

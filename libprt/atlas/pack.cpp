@@ -1,5 +1,6 @@
 #include "libprt/atlas/pack.h"
 
+#include "libprt/atlas/convex_hull.h"
 #include "libprt/atlas/pack_compact.h"
 #include "libprt/core/error.h"
 
@@ -7,28 +8,6 @@
 
 namespace prt {
 namespace {
-
-double cross(const DVec2& a, const DVec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Andrew's monotone chain.
-std::vector<DVec2> convexHull(std::vector<DVec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const DVec2& a, const DVec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<DVec2> hull;
-  for (const int pass : {0, 1}) {
-    const std::size_t base = hull.size();
-    for (const DVec2& p : points) {
-      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    if (pass == 0) std::reverse(points.begin(), points.end());
-  }
-  return hull.empty() ? points : hull;
-}
 
 /// The turn that makes the bounding box least, long side along x.
 double boxAngle(const std::vector<DVec2>& outline) {

@@ -20,8 +20,7 @@ class Compaction {
   bool lay(const std::vector<ChartPlacement>& places, double grow) {
     grid_ = std::make_unique<PackBits>(cells_);
     pieces_.resize(task_.charts.size());
-    const std::vector<std::uint32_t> order = upwards(places);
-    for (std::uint32_t c : order) {
+    for (std::uint32_t c : task_.free) {  // largest first
       job_.checkCancelled();
       Piece& piece = pieces_[c];
       piece.angle = places[c].angle;
@@ -74,15 +73,6 @@ class Compaction {
   }
 
  private:
-  std::vector<std::uint32_t> upwards(const std::vector<ChartPlacement>& places) const {
-    std::vector<std::uint32_t> order = task_.free;
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return task_.charts[a].area * task_.charts[a].weight > task_.charts[b].area * task_.charts[b].weight;
-    });
-    (void)places;
-    return order;
-  }
-
   bool fits(const Piece& piece, int x, int y) const {
     return x >= 0 && y >= 0 && x + piece.mask.width <= cells_ && y + piece.mask.height <= cells_ &&
            grid_->isFree(piece.mask, x, y);

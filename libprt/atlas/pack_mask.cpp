@@ -177,19 +177,33 @@ bool PackGrid::find(const PackMask& mask, int limit, int& x, int& y) const {
   }
 }
 
+namespace {
+
+/// Calls word(index, bits) for the words that a run of cells touches until one returns false.
+template <class Word>
+bool overWords(int begin, int end, const Word& word) {
+  const int first = begin / 64, last = (end - 1) / 64;
+  for (int w = first; w <= last; ++w) {
+    std::uint64_t bits = ~std::uint64_t(0);
+    if (w == first) bits &= ~std::uint64_t(0) << (begin % 64);
+    if (w == last && end % 64 != 0) bits &= (std::uint64_t(1) << (end % 64)) - 1;
+    if (!word(std::size_t(w), bits)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 int PackGrid::takenIn(int y, int begin, int end) const {
   begin = std::max(begin, 0), end = std::min(end, size_);
   if (begin >= end) return 0;
   if (y < 0 || y >= size_) return end - begin;
   const std::uint64_t* bits = row(0, y);
-  const int first = begin / 64, last = (end - 1) / 64;
   int sum = 0;
-  for (int w = first; w <= last; ++w) {
-    std::uint64_t word = bits[w];
-    if (w == first) word &= ~std::uint64_t(0) << (begin % 64);
-    if (w == last && end % 64 != 0) word &= (std::uint64_t(1) << (end % 64)) - 1;
-    sum += std::popcount(word);
-  }
+  overWords(begin, end, [&](std::size_t w, std::uint64_t cells) {
+    sum += std::popcount(bits[w] & cells);
+    return true;
+  });
   return sum;
 }
 
@@ -207,23 +221,6 @@ double PackGrid::contact(const PackMask& mask, int x, int y) const {
 }
 
 PackBits::PackBits(int size) : words_(std::size_t(size + 63) / 64), bits_(words_ * std::size_t(size), 0) {}
-
-namespace {
-
-/// Calls word(index, bits) for the words that a run of cells touches until one returns false.
-template <class Word>
-bool overWords(int begin, int end, const Word& word) {
-  const int first = begin / 64, last = (end - 1) / 64;
-  for (int w = first; w <= last; ++w) {
-    std::uint64_t bits = ~std::uint64_t(0);
-    if (w == first) bits &= ~std::uint64_t(0) << (begin % 64);
-    if (w == last && end % 64 != 0) bits &= (std::uint64_t(1) << (end % 64)) - 1;
-    if (!word(std::size_t(w), bits)) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 void PackBits::set(const PackMask& mask, int x, int y, bool taken) {
   for (int r = 0; r < mask.height; ++r) {

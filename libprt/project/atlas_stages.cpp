@@ -57,19 +57,17 @@ double numberOf(const nlohmann::json& meta, const char* name, const char* stage)
 /// Charts that were put by hand must not lie over others or leave the square.
 void checkPlaces(const FlatCharts& charts, const Atlas& atlas) {
   std::vector<std::vector<DVec2>> outlines;
-  for (std::size_t c = 0; c < charts.uv.size(); ++c) {
-    std::vector<DVec2>& outline = outlines.emplace_back();
-    for (const std::uint32_t v : charts.charts.charts[c].loops[0]) outline.push_back(charts.uv[c][v]);
-  }
+  for (std::size_t c = 0; c < charts.uv.size(); ++c)
+    outlines.push_back(outlineOf(charts.charts.charts[c], charts.uv[c]));
   const auto problems = placementProblems(outlines, atlas.placements, atlas.size);
   if (problems.empty()) return;
   const PlacementProblem& first = problems.front();
   const std::string more =
       problems.size() > 1 ? fmt::format("; {} places in all", problems.size()) : std::string();
-  throw GeometryError(first.chart == first.other ? "leaves the square" + more
-                                                 : fmt::format("lies over chart {}{}", first.other + 1, more),
-                      fmt::format("chart {}", first.chart + 1),
-                      "move it, or take its place from objects[].charts");
+  throw GeometryError(first.chart == first.other
+                          ? "leaves the square" + more
+                          : fmt::format("lies over {}{}", chartName(first.other), more),
+                      chartName(first.chart), "move it, or take its place from objects[].charts");
 }
 
 /// A mesh's own coordinates, refused where they are no map.

@@ -41,7 +41,12 @@ class Layer {
     bool more = false;  // steps to be made
   };
   const std::vector<Chart>& charts() const { return work_.charts->charts; }
-  static std::string nameOf(std::size_t c) { return "chart " + std::to_string(c + 1); }
+  FlattenOptions optionsOf(std::size_t c, const FlatChart& flat) const {
+    FlattenOptions options =
+        flattenOptionsFor(flat, work_.settings[c], flattenOptionsOf(work_.recipe.charts));
+    options.name = chartName(c);
+    return options;
+  }
 
   // The boundary and what it drags along in one solve, then on towards the minimum.
   void followCorners() {
@@ -50,11 +55,8 @@ class Layer {
     const std::size_t c = work_.liveChart;
     try {
       if (!live.map) {
-        live.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], nameOf(c));
-        FlattenOptions options =
-            flattenOptionsFor(*live.flat, work_.settings[c], flattenOptionsOf(work_.recipe.charts));
-        options.name = nameOf(c);
-        live.map = std::make_unique<Flattening>(*live.flat, options, job_);
+        live.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], chartName(c));
+        live.map = std::make_unique<Flattening>(*live.flat, optionsOf(c, *live.flat), job_);
       } else {
         live.map->setCorners(cornersAt(live.flat->rimLengths, work_.settings[c].corners), job_);
       }
@@ -121,11 +123,8 @@ class Layer {
 
   void start(std::size_t c) {
     Running& run = running_[c];
-    run.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], nameOf(c));
-    FlattenOptions options =
-        flattenOptionsFor(*run.flat, work_.settings[c], flattenOptionsOf(work_.recipe.charts));
-    options.name = nameOf(c);
-    run.map = std::make_unique<Flattening>(*run.flat, options, job_);
+    run.flat = std::make_unique<FlatChart>(work_.on->surface, charts()[c], chartName(c));
+    run.map = std::make_unique<Flattening>(*run.flat, optionsOf(c, *run.flat), job_);
     tell(c, false);
     run.more = run.map->step(job_);
     tell(c, false);
@@ -227,13 +226,6 @@ class Layer {
 
 void layCharts(const ChartWork& work, const ChartNews& news, Job& job) {
   Layer(work, news, job).run();
-}
-
-std::vector<DVec2> outlineOf(const Chart& chart, const std::vector<DVec2>& uv) {
-  std::vector<DVec2> outline;
-  if (chart.loops.empty()) return outline;
-  for (const std::uint32_t v : chart.loops[0]) outline.push_back(uv[v]);
-  return outline;
 }
 
 }  // namespace prt::ui

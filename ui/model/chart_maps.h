@@ -63,7 +63,4 @@ struct ChartNews {
 /// All of it. Throws Cancelled.
 void layCharts(const ChartWork& work, const ChartNews& news, Job& job);
 
-/// One chart's boundary on the surface, as its outline in a map.
-std::vector<DVec2> outlineOf(const Chart& chart, const std::vector<DVec2>& uv);
-
 }  // namespace prt::ui
