@@ -129,10 +129,11 @@ void rtt(Session& session, const Options& options) {
   const auto baked = bakedRtt(pipeline, recipe, options.project);
   nlohmann::json result{{"texels", baked->rtt->texels}, {"views", baked->rtt->views}};
   if (!options.output.empty()) {
-    const Rtt shown = options.exact
-                          ? exactly(session, options, patchOf(pipeline, recipe, options.project), recipe)
-                          : Rtt(*baked->rtt);
-    preview(session, options, shown, recipe, folder);
+    if (options.exact)
+      preview(session, options, exactly(session, options, patchOf(pipeline, recipe, options.project), recipe),
+              recipe, folder);
+    else
+      preview(session, options, *baked->rtt, recipe, folder);
     result["picture"] = options.output;
   }
   if (options.errors) result["errors"] = compression(session, *baked->rtt);

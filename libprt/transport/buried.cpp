@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -97,25 +98,33 @@ class CloserLook {
       : scene_(scene),
         samples_(samples),
         inside_(trianglesWithInside(scene)),
-        edges_(samples.vertices > 0 ? edgeLengths(scene.mesh) : std::vector<float>()) {}
+        anyInside_(std::find(inside_.begin(), inside_.end(), 1) != inside_.end()),
+        edges_(samples.vertices > 0 && severalObjects() ? edgeLengths(scene.mesh) : std::vector<float>()) {}
+
+  /// Whether there is anything that could bury or cover a sample.
+  bool needed() const { return anyInside_ || !edges_.empty(); }
 
   /// Whether few rays leave it open that the sample is buried or covered: of these there are many signs then.
   bool mayBeBuried(std::span<const Hit> hits) const {
     const auto open = std::count_if(hits.begin(), hits.end(), [](const Hit& hit) { return !hit.valid(); });
-    return countBacks(hits) > 0 || open * 4 <= std::ptrdiff_t(hits.size());
+    return countBacks(hits) > 0 || (!edges_.empty() && open * 4 <= std::ptrdiff_t(hits.size()));
   }
   bool buried(std::size_t sample, std::span<const Hit> hits) const {
     return countBacks(hits) * 4 > kTestRays || covered(sample, hits);
   }
 
  private:
+  bool severalObjects() const {
+    const std::vector<std::uint32_t>& owners = scene_.triangleObject;
+    return std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
+  }
   std::ptrdiff_t countBacks(std::span<const Hit> hits) const {
     return std::count_if(hits.begin(), hits.end(),
                          [&](const Hit& hit) { return hit.valid() && hit.back && inside_[hit.triangle]; });
   }
 
   bool covered(std::size_t sample, std::span<const Hit> hits) const {
-    if (sample >= samples_.vertices || samples_.triangle[sample] == kNone) return false;
+    if (edges_.empty() || sample >= samples_.vertices || samples_.triangle[sample] == kNone) return false;
     const std::uint32_t own = scene_.triangleObject[samples_.triangle[sample]];
     int open = 0, close = 0;
     for (const Hit& hit : hits) {
@@ -128,7 +137,8 @@ class CloserLook {
   const Scene& scene_;
   const SampleSet& samples_;
   std::vector<std::uint8_t> inside_;
-  std::vector<float> edges_;
+  bool anyInside_;
+  std::vector<float> edges_;  // empty where nothing can be covered: there is one object
 };
 
 }  // namespace
@@ -137,6 +147,7 @@ std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, c
                                      std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job) {
   std::vector<std::uint8_t> buried(samples.size(), 0);
   const CloserLook look(scene, samples);
+  if (!look.needed()) return buried;
   const RayTable few(RaySpread::Uniform, 1, 0, kFirstRays, seed, job);
   const RayTable all(RaySpread::Uniform, 1, 0, kTestRays, seed, job);
   parallelFor(job, 0, samples.size(), kBakeTile, [&](std::size_t begin, std::size_t end) {
