@@ -38,16 +38,21 @@ Rgb densityColor(double value) {
   return t < 0.5f ? mix(low, middle, 2 * t) : mix(middle, high, 2 * t - 1);
 }
 
+double commonScale(const std::vector<ChartItem>& items) {
+  double flat = 0, area = 0;
+  for (const ChartItem& item : items) {
+    if (!item.map || !item.placement) continue;
+    flat += item.map->stretch.flatArea * item.placement->scale * item.placement->scale;
+    area += item.map->stretch.area;
+  }
+  return area > 0 && flat > 0 ? std::sqrt(flat / area) : 1;
+}
+
 std::vector<Rgb> chartColors(const CutSurface& on, const Charts& charts, const std::vector<ChartItem>& items,
                              ChartShade shade, int selected, const std::set<std::uint32_t>& problems) {
   const Surface& surface = on.surface;
   std::vector<Rgb> colors(surface.triangleCount(), Rgb(0.42f));
-  double flatSum = 0, areaSum = 0;
-  for (const ChartItem& item : items) {
-    if (!item.map || !item.placement) continue;
-    flatSum += item.map->stretch.flatArea * item.placement->scale * item.placement->scale;
-    areaSum += item.map->stretch.area;
-  }
+  const double common = commonScale(items);
   for (std::size_t c = 0; c < items.size(); ++c) {
     const ChartItem& item = items[c];
     const Chart& chart = charts.charts[c];
@@ -71,7 +76,7 @@ std::vector<Rgb> chartColors(const CutSurface& on, const Charts& charts, const s
           color = magnitudeColor(float(std::clamp((s.l2 * scale - 1) / (kMostStretch - 1), 0.0, 1.0)));
         } else {
           const double size = item.placement->scale, area = std::max(surface.area(face), 1e-300);
-          const double ratio = flatArea(flat[0], flat[1], flat[2]) * size * size / area * (areaSum / flatSum);
+          const double ratio = flatArea(flat[0], flat[1], flat[2]) * size * size / area / (common * common);
           color = densityColor(0.5 + 0.5 * std::log(std::max(ratio, 1e-9)) / std::log(kMostDensity));
         }
       }

@@ -7,6 +7,8 @@ namespace prt::ui {
 
 /// A calm hue of its own for each chart, named by a triangle of it: it stays while others are cut.
 Rgb chartHue(std::uint32_t face);
+/// Sides of the square per length of the surface, over all charts that are placed; 1 where none is.
+double commonScale(const std::vector<ChartItem>& items);
 /// Charts that cannot be laid flat, and triangles that lie over others.
 inline constexpr Rgb kBadChart{0.52f, 0.16f, 0.13f};
 

@@ -126,8 +126,6 @@ class ChartEditor : public QObject {
   /// Of the atlas, as parts of its side: a texel, and the gutter.
   double texel() const { return 1.0 / atlasRecipe_.size; }
   double gutter() const { return atlasRecipe_.gutter * texel(); }
-  /// Sides of the square per length of the surface, over all charts.
-  double commonScale() const;
   /// Puts a chart somewhere. Between beginMove() and endMove() it is one step; all others stay where they
   /// are.
   void beginMove(const QString& name);

@@ -55,16 +55,6 @@ void ChartEditor::editSettings(const QString& name, int chart,
   writeSettings(name, all);
 }
 
-double ChartEditor::commonScale() const {
-  double flat = 0, area = 0;
-  for (const ChartItem& item : items_) {
-    if (!item.map || !item.placement) continue;
-    flat += item.map->stretch.flatArea * item.placement->scale * item.placement->scale;
-    area += item.map->stretch.area;
-  }
-  return area > 0 && flat > 0 ? std::sqrt(flat / area) : 1;
-}
-
 void ChartEditor::beginMove(const QString& name) {
   session_.document().beginGesture(name);
 }

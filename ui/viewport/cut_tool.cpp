@@ -1,6 +1,7 @@
 #include "ui/viewport/cut_tool.h"
 
 #include "ui/model/scene_rays.h"
+#include "ui/widgets/distances.h"
 #include "ui/widgets/theme.h"
 
 #include <QGuiApplication>
@@ -18,17 +19,6 @@ constexpr double kCatch = 9;        // pixels from which a clicked vertex or a s
 constexpr double kEraseReach = 14;  // pixels from a cut that erasing takes
 constexpr double kFaint = 0.22;     // opacity of what the model hides
 constexpr float kLift = 3e-3f;      // of the distance to the eye, towards it
-
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
-double distanceToPiece(const QPointF& p, const QPointF& a, const QPointF& b) {
-  const QPointF along = b - a;
-  const double square = QPointF::dotProduct(along, along);
-  const double t = square > 0 ? std::clamp(QPointF::dotProduct(p - a, along) / square, 0.0, 1.0) : 0;
-  return distance(p, a + t * along);
-}
 
 QColor suggestedColor() {
   return QColor(0x6f, 0xc3, 0xdf);

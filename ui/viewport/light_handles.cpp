@@ -2,6 +2,7 @@
 
 #include "ui/model/scene_rays.h"
 #include "ui/widgets/color_field.h"
+#include "ui/widgets/distances.h"
 #include "ui/widgets/theme.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -24,17 +25,6 @@ constexpr int kPieces = 96;                     // of a rim
 constexpr double kReach = 7;                    // pixels around what can be grabbed
 constexpr double kDot = 4.5;                    // pixels
 constexpr double kFaint = 0.28, kMuted = 0.45;  // opacity
-
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
-}
-
-double distanceToPiece(const QPointF& p, const QPointF& a, const QPointF& b) {
-  const QPointF along = b - a;
-  const double squared = QPointF::dotProduct(along, along);
-  const double t = squared > 0 ? std::clamp(QPointF::dotProduct(p - a, along) / squared, 0.0, 1.0) : 0;
-  return distance(p, a + t * along);
-}
 
 float angleBetween(const Vec3& a, const Vec3& b) {
   return std::atan2(length(cross(a, b)), dot(a, b));

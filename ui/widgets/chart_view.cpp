@@ -1,6 +1,7 @@
 #include "ui/widgets/chart_view.h"
 
 #include "ui/model/chart_colors.h"
+#include "ui/widgets/distances.h"
 #include "ui/widgets/theme.h"
 
 #include "libprt/shade/color_map.h"
@@ -27,10 +28,6 @@ constexpr float kSquares = 32;
 QColor toColor(const Rgb& c) {
   return QColor::fromRgbF(std::clamp(c.x, 0.0f, 1.0f), std::clamp(c.y, 0.0f, 1.0f),
                           std::clamp(c.z, 0.0f, 1.0f));
-}
-
-double distance(const QPointF& a, const QPointF& b) {
-  return std::hypot(a.x() - b.x(), a.y() - b.y());
 }
 
 DVec2 turned(const DVec2& v, double angle) {
@@ -169,7 +166,7 @@ void ChartView::paintEvent(QPaintEvent*) {
     if (std::exchange(stale_, false) || picture_.width() != w.width || picture_.height() != w.height) {
       const ChartPixels pixels = rasterCharts(charts_.charts(), charts_.items(), shownChart(), w);
       const auto shade = charts_.shade();
-      const float squares = one_ ? float(kSquares * charts_.commonScale()) : kSquares;
+      const float squares = one_ ? float(kSquares * commonScale(charts_.items())) : kSquares;
       const auto colors =
           chartPixelColors(pixels, charts_.colors(), w, shade == ChartShade::Checker, squares,
                            theme().window.rgb(), one_ ? theme().window.rgb() : theme().field.rgb());
