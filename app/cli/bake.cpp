@@ -5,6 +5,7 @@
 #include "app/cli/recipe_page.h"
 #include "app/cli/session.h"
 #include "libprt/core/log.h"
+#include "libprt/meso/rtt_seam.h"
 #include "libprt/project/scenes.h"
 
 #include <fmt/format.h>
@@ -67,6 +68,11 @@ void tell(const Session& session, const BakeSummary& s) {
                         "rtt.views to {1} or make the patch thinner",
                         r.views, r.views < 12 ? 12 : 16));
     }
+    if (r.seamStep > kVisibleSeam)
+      logWarning(fmt::format(
+          "the sample's borders do not meet (steps {:.1f} times those inside): repeats will show lines; "
+          "set patch.seamless=true to take the steps away",
+          r.seamStep));
     if (!r.warning.empty()) logWarning(r.warning);
   }
   for (const BakeSummary::StageTime& stage : s.stages)

@@ -16,6 +16,7 @@ struct PatchOptions {
   std::string heightmap = "builtin:stucco";  ///< heightfield: image, or builtin:NAME of a generator
   std::string mesh;                          ///< mesh: file of one period, +Y outwards
   std::string btf;                           ///< btf: manifest.json of a folder of images
+  bool seamless = false;                     ///< btf: take away the steps at its borders
   std::string texture;                       ///< albedo over the patch: image or builtin:NAME; empty: none
   std::string gloss;                         ///< factor on specular over the patch: image; empty: none
   float depth = 0.12f;                       ///< heightfield and weave: lowest to highest point

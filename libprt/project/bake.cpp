@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/core/log.h"
+#include "libprt/meso/rtt_seam.h"
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
@@ -93,7 +94,8 @@ BakeSummary::RttFacts describeRtt(const RttProduct& product, const PatchProduct*
           patch && patch->patch ? double(patch->patch->depth()) : 0,
           patch && patch->patch ? thinPatchWarning(*patch->patch, r.views) : "",
           product.storageError,
-          product.viewError};
+          product.viewError,
+          patch && !patch->patch ? seamStep(r) : 1};
 }
 
 }  // namespace
@@ -174,10 +176,11 @@ nlohmann::json toJson(const BakeSummary& s) {
                         {"storage_error", t.storageError}};
   }
   if (s.rtt)
-    json["rtt"] = {{"texels", s.rtt->texels},   {"views", s.rtt->views},
-                   {"bands", s.rtt->bands},     {"channels", s.rtt->channels},
-                   {"bounces", s.rtt->bounces}, {"depth", s.rtt->depth},
-                   {"warning", s.rtt->warning}, {"storage_error", s.rtt->storageError}};
+    json["rtt"] = {{"texels", s.rtt->texels},     {"views", s.rtt->views},
+                   {"bands", s.rtt->bands},       {"channels", s.rtt->channels},
+                   {"bounces", s.rtt->bounces},   {"depth", s.rtt->depth},
+                   {"warning", s.rtt->warning},   {"storage_error", s.rtt->storageError},
+                   {"seam_step", s.rtt->seamStep}};
   if (s.rtt && s.rtt->viewError) {
     json["rtt"]["view_error_between"] = s.rtt->viewError->between;
     json["rtt"]["view_error_beyond"] = s.rtt->viewError->beyond;

@@ -60,6 +60,7 @@ struct BakeSummary {
     std::string warning;  ///< when it is too thick; empty: it is not
     double storageError = 0;
     std::optional<ViewError> viewError;  ///< of interpolating between views
+    double seamStep = 1;                 ///< of an imported sample, see meso/rtt_seam.h
   };
   std::optional<RttFacts> rtt;  ///< when there is a patch
 };

@@ -4,6 +4,7 @@
 #include "libprt/core/image_io.h"
 #include "libprt/mesh/repair.h"
 #include "libprt/meso/btf_import.h"
+#include "libprt/meso/rtt_seam.h"
 #include "libprt/meso/rtt_storage.h"
 #include "libprt/project/pipeline.h"
 
@@ -260,9 +261,9 @@ ProductPtr makeRttStage(StageRun& run) {
     if (run.recipe().patch.btf.empty())
       throw ValueError("is not set", "patch.btf", "name the manifest of the images");
     const RttRecipe& r = run.recipe().rtt;
-    return rounded(
-        importBtf(openBtf(run.file(run.recipe().patch.btf)), {r.texels, r.views, r.bands}, run.job()),
-        r.storage);
+    Rtt rtt = importBtf(openBtf(run.file(run.recipe().patch.btf)), {r.texels, r.views, r.bands}, run.job());
+    if (run.recipe().patch.seamless) makeSeamless(rtt, run.job());
+    return rounded(std::move(rtt), r.storage);
   }
   if (!patch->patch) return std::make_shared<RttProduct>();
   const PatchScene scene = makePatchScene(patch->patch, run.job());

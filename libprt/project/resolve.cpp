@@ -61,7 +61,7 @@ void resolvePatch(Recipe& recipe) {
     recipe.rtt = {};
     recipe.rtt.texels = rtt.texels, recipe.rtt.views = rtt.views, recipe.rtt.bands = rtt.bands;
     recipe.rtt.storage = rtt.storage;
-    patch.btf = given.btf;
+    patch.btf = given.btf, patch.seamless = given.seamless;
     return;
   }
   patch.texture = given.texture, patch.gloss = given.gloss;

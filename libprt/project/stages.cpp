@@ -64,7 +64,7 @@ std::vector<Stage> makeStages() {
        .make = makeRays},
       {.name = "direct",
        .makes = "what light from outside does at each sample, shadowed but not reflected",
-       .version = 3,
+       .version = 4,
        .inputs = {"scene", "samples", "rays"},
        .reads = {"transfer.bands", "transfer.rays", "transfer.seed"},
        .extends = {"transfer.rays"},

@@ -39,18 +39,6 @@ std::vector<double> hemisphere(int bands, RaySpread spread) {
   return sum;
 }
 
-/// to = D from for the first `bands` bands of a rotation that may have more.
-void rotate(const ShRotation& rotation, int bands, const double* from, float* to) {
-  for (int l = 0; l < bands; ++l) {
-    const double* row = rotation.block(l).data();
-    for (int m = -l; m <= l; ++m, row += 2 * l + 1) {
-      double sum = 0;
-      for (int k = -l; k <= l; ++k) sum += row[k + l] * from[shIndex(l, k)];
-      to[shIndex(l, m)] = float(sum);
-    }
-  }
-}
-
 /// The estimates of one sample, from sums to coefficients in the object frame.
 class Estimator {
  public:
@@ -60,15 +48,14 @@ class Estimator {
   /// `main` gets the coefficients that `open` sums to, `diffuse` those of `cosine` (null without).
   void run(std::size_t sample, float* main, float* diffuse) const {
     const Frame frame = bakeFrame(*sums_.samples, sample, sums_.spread, sums_.settings.seed);
-    const ShRotation toObject(sums_.bands, frame.matrix());
     std::vector<double> local(std::size_t(shCount(sums_.bands)));
     controlled(sample, local);
-    rotate(toObject, sums_.bands, local.data(), main);
+    turned(frame, sums_.bands, local, main);
     if (!diffuse) return;
     const float* cosine = &sums_.cosine[sample * std::size_t(sums_.cosineStride)];
     for (int k = 0; k < shCount(sums_.settings.bands); ++k)
       local[std::size_t(k)] = 2 * kPi / rays_ * cosine[k];
-    rotate(toObject, sums_.settings.bands, local.data(), diffuse);
+    turned(frame, sums_.settings.bands, local, diffuse);
   }
 
  private:
@@ -83,6 +70,12 @@ class Estimator {
     const double share = open[0] * kRoot4Pi / rays_;
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] = weight * (open[k] - share * all[k]) + share * open_[k];
+  }
+
+  /// Out of the sample's frame into the object's.
+  static void turned(const Frame& frame, int bands, std::vector<double>& local, float* out) {
+    rotateShOnce(bands, glm::dmat3(frame.matrix()), local, local);
+    std::copy_n(local.begin(), shCount(bands), out);
   }
 
   const DirectSums& sums_;

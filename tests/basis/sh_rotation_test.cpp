@@ -61,6 +61,49 @@ TEST(ShRotation, TurnsEvaluatedFunctions) {
   }
 }
 
+/// Rotations that taking apart into turns finds hard: about z, upside down, and next to both.
+std::vector<glm::dmat3> rotationsAtThePoles() {
+  std::vector<glm::dmat3> all;
+  for (const double lean : {0.0, 1e-300, 1e-16, 1e-9, 1e-7, 1e-3})
+    for (const double turn : {0.0, 0.7, 2.9})
+      for (const double over : {0.0, kPi})
+        all.push_back(rotationAbout(DVec3(1, 0, 0), lean) * rotationAbout(DVec3(0, 0, 1), turn) *
+                      rotationAbout(DVec3(0, 1, 0), over));
+  return all;
+}
+
+TEST(RotateShOnce, IsTheRotation) {
+  std::mt19937 random(12);
+  std::vector<glm::dmat3> rotations = rotationsAtThePoles();
+  for (int i = 0; i < 20; ++i) rotations.push_back(randomRotation(random));
+  for (int bands : {1, 2, 5, 9, kMaxShOnceBands})
+    for (const glm::dmat3& r : rotations) {
+      const std::vector<double> from = randomVector(shCount(bands), random);
+      std::vector<double> expected(from.size()), once = from;
+      ShRotation(bands, r).apply(std::span<const double>(from), expected);
+      rotateShOnce(bands, r, once, once);
+      EXPECT_LT(largestDifference(once, expected), 2e-13) << bands << " bands";
+    }
+}
+
+TEST(RotateShOnce, KeepsTheErrorOfAFrameOfFloats) {
+  std::mt19937 random(13);
+  for (const glm::dmat3& r : rotationsAtThePoles()) {
+    const std::vector<double> from = randomVector(shCount(9), random);
+    std::vector<double> expected(from.size()), once(from.size());
+    ShRotation(9, r).apply(std::span<const double>(from), expected);
+    rotateShOnce(9, glm::dmat3(Mat3(r)), from, once);
+    EXPECT_LT(largestDifference(once, expected), 5e-6);
+  }
+}
+
+TEST(RotateShOnce, RefusesMoreBandsThanItHas) {
+  std::vector<double> c(std::size_t(shCount(kMaxShOnceBands + 1)));
+  EXPECT_THROW(rotateShOnce(kMaxShOnceBands + 1, glm::dmat3(1), c, c), ValueError);
+  EXPECT_THROW(rotateShOnce(0, glm::dmat3(1), c, c), ValueError);
+  EXPECT_THROW(rotateShOnce(3, glm::dmat3(1), std::span(c).first(8), c), std::length_error);
+}
+
 TEST(ShRotation, BlocksAreOrthogonal) {
   std::mt19937 random(3);
   const ShRotation rotation(kMaxShBands, randomRotation(random));

@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/image_io.h"
 #include "libprt/meso/btf_render.h"
+#include "libprt/meso/rtt_seam.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/source_hash.h"
 #include "tests/project/toy_stages.h"
@@ -150,6 +151,32 @@ TEST(PatchStages, ImportsImagesAndSeesWhenTheyChange) {
   const std::string before = hashSource(folder / "manifest.json");
   writeImage(folder / "view_000_light_000.exr", Image(4, 4, 3));
   EXPECT_NE(hashSource(folder / "manifest.json"), before);
+}
+
+TEST(PatchStages, ASampleThatDoesNotTileIsMadeTo) {
+  const test::TemporaryFolder folder;
+  Job job;
+  const LightSet lights = lightGrid(4, 8);
+  const PatchScene patch =
+      makePatchScene(std::make_shared<Patch>(buildPatch(small(PatchModel::Flat).patch, {}, job)), job);
+  RttSettings settings;
+  settings.texels = 16, settings.views = 2, settings.rays = 64;
+  BtfWriter writer(folder.path(), lights);
+  renderBtf(patch, settings, lights, job, [&](BtfView view) {
+    const std::size_t numbers = view.lights * std::size_t(view.channels);
+    for (std::size_t i = 0; i < view.values.size(); ++i) {
+      const std::size_t u = i / numbers % 16, v = i / numbers / 16;
+      view.values[i] *= 1 + float(u) / 16 + 0.1f * float((u + v) % 2);  // brighter towards +u, with a grain
+    }
+    writer.add(view, job);
+  });
+  writer.finish();
+  Recipe recipe = small(PatchModel::Btf);
+  recipe.patch.btf = "manifest.json";
+  recipe.rtt.texels = 16;
+  EXPECT_GT(seamStep(*bake(recipe, nullptr, nullptr, folder.path())->rtt), 3);
+  recipe.patch.seamless = true;
+  EXPECT_LT(seamStep(*bake(recipe, nullptr, nullptr, folder.path())->rtt), 1.5);
 }
 
 TEST(PatchStages, DamagedProductsAreRefused) {

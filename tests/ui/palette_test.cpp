@@ -164,6 +164,24 @@ TEST_F(PaletteTest, AParameterWithoutARowIsSetInTheLine) {
   EXPECT_EQ(session.document().recipe().transfer.seed, 7u);
 }
 
+TEST_F(PaletteTest, AParameterWhoseRowIsTakenAwayIsSetInTheLine) {
+  openAndSettle();
+  auto* row = window.findChild<PropertyRow*>(s("patch.yarns"));
+  ASSERT_TRUE(row->isHidden()) << "there is no weave";
+  openPalette();
+  type("patch.yarns");
+  enter();
+  ASSERT_TRUE(palette().isOpen());
+  EXPECT_TRUE(line()->text().startsWith(s("patch.yarns = "))) << line()->text().toStdString();
+  line()->setText(s("patch.model = weave"));
+  enter();
+  EXPECT_FALSE(row->isHidden());
+  openPalette();
+  type("patch.yarns");
+  enter();
+  EXPECT_TRUE(row->editor()->hasFocus()) << "now it has a row to go to";
+}
+
 TEST_F(PaletteTest, EveryParameterOfTheRecipeIsFound) {
   openAndSettle();
   openPalette();

@@ -163,6 +163,7 @@ TEST_F(PatchDockTest, TheTextureIsBakedAndLitByTheLightOfTheScene) {
   openAndSettle(smallRtt());
   ASSERT_TRUE(waitFor([&] { return views()->grab().toImage() != QImage() && session.jobs().idle(); }));
   pass(100);
+  EXPECT_TRUE(window.findChild<QLabel*>(s("rttState"))->text().contains(s("% between its views")));
   const QImage before = square()->grab().toImage();
   Recipe brighter = session.document().recipe();
   brighter.lights[0].intensity *= 0.25f;

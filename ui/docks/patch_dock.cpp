@@ -53,6 +53,7 @@ PatchDock::PatchDock(Session& session, QWidget* parent)
                              {"heightmap", kHeights},
                              {"mesh", kMesh},
                              {"btf", kBtf},
+                             {"seamless", kBtf},
                              {"depth", kHeights | kWeave},
                              {"count", kHeights},
                              {"seed", kHeights},

@@ -55,6 +55,7 @@ Section* RttDock::makeBake() {
   bar_->setTextVisible(false);
   bar_->setFixedHeight(kGrid);
   section->add(bar_);
+  state_->setObjectName(QStringLiteral("rttState"));
   setRole(state_, "muted");
   state_->setWordWrap(true);
   section->add(state_);
@@ -92,6 +93,16 @@ QString RttDock::stateText() const {
                      .arg(megabytes, 0, 'f', 1)
                      .arg(rtt->bounces);
   if (look_.storageError() > 0) text += tr("; rounding %1 %").arg(100 * look_.storageError(), 0, 'g', 2);
+  return text + viewErrorText(*rtt);
+}
+
+QString RttDock::viewErrorText(const Rtt& rtt) const {
+  const auto& error = look_.viewError();
+  if (!error) return {};
+  QString text = tr("\nOff by %1 % between its views, %2 % beyond the outermost")
+                     .arg(100 * error->between, 0, 'f', 1)
+                     .arg(100 * error->beyond, 0, 'f', 1);
+  if (rtt.views < 16 && error->between > kMuchViewError) text += tr("; more views lower it");
   return text;
 }
 

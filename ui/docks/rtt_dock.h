@@ -25,6 +25,7 @@ class RttDock : public DockColumn {
   const JobInfo* ownJob() const;
   ProductStatus status() const;
   QString stateText() const;
+  QString viewErrorText(const Rtt& rtt) const;
 
   Session& session_;
   RttLook look_;

@@ -76,6 +76,7 @@ void RttLook::take(const ProductState& state) {
   const auto product = std::dynamic_pointer_cast<const RttProduct>(state.product);
   rtt_ = product ? product->rtt : nullptr;
   storageError_ = product ? product->storageError : 0;
+  viewError_ = product ? product->viewError : std::nullopt;
   level_ = state.level, levels_ = state.levels;
   refresh();
 }

@@ -13,6 +13,7 @@
 #include <QString>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace prt::ui {
@@ -40,6 +41,8 @@ class RttLook : public QObject {
   int level() const { return level_; }
   int levels() const { return levels_; }
   double storageError() const { return storageError_; }
+  /// What interpolating between its views costs; none before it is final, nor for imported images.
+  const std::optional<ViewError>& viewError() const { return viewError_; }
   /// Linear radiance, v = 1 at the top, one pixel a texel; empty without a table.
   const Image& square() const { return square_; }
   /// The same of every view, rows of the view square from the top, smaller.
@@ -59,6 +62,7 @@ class RttLook : public QObject {
   std::shared_ptr<const Rtt> rtt_;
   int level_ = 0, levels_ = 0;
   double storageError_ = 0;
+  std::optional<ViewError> viewError_;
   Image square_;
   std::vector<Image> thumbnails_;
   bool watched_ = false, running_ = false, again_ = false;

@@ -71,18 +71,29 @@ QString sectionOf(const QWidget* widget, const QString& dock) {
   return dock;
 }
 
-// Rows: labels that belong to a field.
+// Whether its dock took it away: a row, or its whole section, that nothing reads now. (In a closed section it
+// is only folded away.)
+bool takenAway(const PropertyRow& row) {
+  if (row.isHidden()) return true;
+  for (const QWidget* at = &row; at; at = at->parentWidget())
+    if (const auto* section = qobject_cast<const Section*>(at)) return section->isHidden();
+  return false;
+}
+
+// Rows: labels that belong to a field. What a dock has taken away is left to be set by its path.
 void collectRows(const QDockWidget& dock, std::vector<Command>& commands, std::set<QString>& paths) {
   for (const QLabel* label : dock.findChildren<QLabel*>()) {
     QWidget* field = label->buddy();
     if (!field || !field->isEnabled()) continue;
+    const auto* row = qobject_cast<PropertyRow*>(label->parentWidget());
+    if (row && takenAway(*row)) continue;
     Command command;
     command.title = label->text();
     command.group = sectionOf(label, dock.windowTitle());
     command.id = QStringLiteral("row/") + command.group + u'/' + command.title;
     command.detail = shownValue(field).trimmed();
     command.tip = label->toolTip();
-    if (const auto* row = qobject_cast<PropertyRow*>(label->parentWidget())) {
+    if (row) {
       paths.insert(row->path());
       command.id = QStringLiteral("row/") + row->path();
       if (command.detail.isEmpty()) command.detail = row->valueText();
