@@ -83,7 +83,8 @@ void tell(const Session& session, const BakeSummary& s) {
 void bake(Session& session, const Options& options) {
   RecipeSource source = openRecipe(options.input);
   for (const std::string& assignment : options.assignments) setByAssignment(source.recipe, assignment);
-  if (session.seed) source.recipe.transfer.seed = source.recipe.rtt.seed = *session.seed;
+  if (session.seed)
+    source.recipe.transfer.seed = source.recipe.rtt.seed = source.recipe.synthesis.seed = *session.seed;
   BakeOptions bakeOptions;
   bakeOptions.output = options.output.empty() ? source.project : std::filesystem::path(options.output);
   if (bakeOptions.output.empty()) throw UsageError("no output is named", "-o", "add for example -o out.prt");

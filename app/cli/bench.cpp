@@ -36,15 +36,17 @@ void requireKnown(const std::string& name) {
 
 void bench(Session& session, const Options& options) {
   requireKnown(options.name);
-  if (!options.mesh.empty() && options.name != "atlas")
-    throw UsageError("bench " + options.name + " takes no mesh", "--mesh", "use it with bench atlas");
+  if (!options.mesh.empty() && options.name != "atlas" && options.name != "pipeline")
+    throw UsageError("bench " + options.name + " takes no mesh", "--mesh",
+                     "use it with bench atlas or pipeline");
   if (options.large && (options.name != "atlas" || !options.mesh.empty()))
     throw UsageError("only bench atlas without a mesh has a large shape", "--large",
                      "use it with bench atlas");
-  const BenchResult result = options.large ? runLargeAtlasBench(session.job())
-                             : options.mesh.empty()
-                                 ? runBench(options.name, session.job(), options.repetitions)
-                                 : runAtlasBench(options.mesh, session.job(), options.repetitions);
+  const BenchResult result =
+      options.large                ? runLargeAtlasBench(session.job())
+      : options.mesh.empty()       ? runBench(options.name, session.job(), options.repetitions)
+      : options.name == "pipeline" ? runPipelineBench(options.mesh, session.job())
+                                   : runAtlasBench(options.mesh, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
   session.say(fmt::format("  ours     {:.4g} {}", result.ours.value, result.ours.unit));
   session.say(fmt::format("  against  {:.4g} {} ({})", result.against.value, result.against.unit,
@@ -70,7 +72,8 @@ void addBench(CLI::App& app, Action& action) {
                    "How often both sides are timed; 0 = as often as is needed")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
-  command->add_option("--mesh", options->mesh, "bench atlas: a mesh file instead of the built-in shapes");
+  command->add_option("--mesh", options->mesh,
+                      "bench atlas, pipeline: a mesh file instead of the built-in shapes");
   command->add_flag("--large", options->large, "bench atlas: a million triangles against a hundred thousand");
   command->footer(listOfBenches);
   command->callback([options, &action] { action = [options](Session& s) { bench(s, *options); }; });

@@ -8,6 +8,7 @@
 #include "libprt/project/lights.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/project_file.h"
+#include "libprt/project/synthesis_stages.h"
 
 #include <fmt/format.h>
 
@@ -48,13 +49,31 @@ void exportProject(Session& session, const Options& options) {
   const Recipe& recipe = project->recipe();
   const auto rtt = pipeline.find(recipe, {"rtt"}).get<RttProduct>("rtt");
   const auto patch = pipeline.find(recipe, {"patch"}).get<PatchProduct>("patch");
+  const auto atlas = pipeline.find(recipe, {"atlas"}).get<AtlasProduct>("atlas");
+  const Products laid = pipeline.find(recipe, {"synthesis", "idmap"});
+  const auto synthesis = laid.get<SynthesisProduct>("synthesis");
+  const auto idmap = laid.get<IdMapProduct>("idmap");
+  if (synthesis && synthesis->meso && !options.npy.empty() &&
+      !pipeline.find(recipe, {"transfer"}).state("transfer")) {
+    const Products made = pipeline.run(recipe, {"scene", "frames"}, session.job());
+    const ExportParts parts{made.get<SceneProduct>("scene")->scene->mesh,
+                            made.get<FramesProduct>("frames")->frames,
+                            atlas ? atlas->atlas.get() : nullptr,
+                            rtt ? rtt->rtt.get() : nullptr,
+                            patch ? patch->patch.get() : nullptr,
+                            synthesis.get(),
+                            idmap.get()};
+    const ExportedFiles files = exportParts(parts, options.npy, session.job());
+    session.say(fmt::format("wrote the patch on the surface to {}", options.npy));
+    session.result({{"npy", {{"folder", options.npy}, {"files", files}}}});
+    return;
+  }
   if (rtt && rtt->rtt && !options.npy.empty() && !pipeline.find(recipe, {"transfer"}).state("transfer")) {
     const ExportedFiles files = exportRtt(*rtt->rtt, patch ? patch->patch.get() : nullptr, options.npy);
     session.say(fmt::format("wrote the radiance transfer texture alone to {}", options.npy));
     session.result({{"npy", {{"folder", options.npy}, {"files", files}}}});
     return;
   }
-  const auto atlas = pipeline.find(recipe, {"atlas"}).get<AtlasProduct>("atlas");
   if (atlas && !options.npy.empty() && !pipeline.find(recipe, {"transfer"}).state("transfer")) {
     const auto scene = pipeline.run(recipe, {"scene"}, session.job()).get<SceneProduct>("scene");
     const ExportedFiles files = exportAtlas(scene->scene->mesh, *atlas, options.npy, session.job());
@@ -71,6 +90,7 @@ void exportProject(Session& session, const Options& options) {
   if (options.errors) input.errors = estimate(session, input);
   if (rtt) input.rtt = rtt->rtt;
   if (atlas) input.atlas = atlas->atlas;
+  input.synthesis = synthesis, input.idmap = idmap;
   if (patch) input.patch = patch->patch;
   const auto note = [&](const char* kind, const std::string& where, const ExportedFiles& files) {
     session.say(fmt::format("wrote {} files to {}", files.size(), where));

@@ -15,9 +15,9 @@ namespace {
 constexpr int kDone = 0, kFailed = 1, kUsage = 2, kCancelled = 130;
 
 /// In the order of their use; --help lists them so.
-constexpr void (*kCommands[])(CLI::App&, Action&) = {addBake, addRelight, addReference, addCompare,
-                                                     addInfo, addVerify,  addExport,    addLight,
-                                                     addRtt,  addFigures, addDemo,      addBench};
+constexpr void (*kCommands[])(CLI::App&, Action&) = {
+    addBake,  addRelight, addReference, addCompare, addInfo, addVerify, addExport,
+    addLight, addRtt,     addSynthesis, addFigures, addDemo, addBench};
 
 void addGlobalOptions(CLI::App& app, Session& session) {
   app.add_flag("--json", session.json, "Print the result as JSON on stdout")->group("Global options");

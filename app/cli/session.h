@@ -57,6 +57,7 @@ void addVerify(CLI::App& app, Action& action);
 void addExport(CLI::App& app, Action& action);
 void addLight(CLI::App& app, Action& action);
 void addRtt(CLI::App& app, Action& action);
+void addSynthesis(CLI::App& app, Action& action);
 void addFigures(CLI::App& app, Action& action);
 void addDemo(CLI::App& app, Action& action);
 void addBench(CLI::App& app, Action& action);

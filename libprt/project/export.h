@@ -17,6 +17,9 @@
 
 namespace prt {
 
+struct SynthesisProduct;
+struct IdMapProduct;
+
 /// What there is to export.
 struct ExportInput {
   const Recipe& recipe;
@@ -27,6 +30,8 @@ struct ExportInput {
   std::shared_ptr<const Rtt> rtt = nullptr;          ///< the same
   std::shared_ptr<const Patch> patch = nullptr;      ///< the same
   std::shared_ptr<const Atlas> atlas = nullptr;      ///< texture coordinates and geometry images when given
+  std::shared_ptr<const SynthesisProduct> synthesis = nullptr;  ///< the meso mesh when given
+  std::shared_ptr<const IdMapProduct> idmap = nullptr;          ///< the same
 };
 
 /// Files that were written, relative to the folder.
@@ -47,12 +52,27 @@ using ExportedFiles = std::vector<std::string>;
 ///   patch_positions, patch_normals, patch_albedo [P,3], patch_faces [Q,3]: one period of the patch, in its
 ///   frame error_estimate [V,3], when there is one: Monte Carlo, interpolation, truncation
 ///   (transport/error_map.h)
+///   meso_positions, meso_normals [M,3], meso_patch [M,2] and idmap [size,size,2], when a patch was laid over
+///   the surface: the meso mesh with patch coordinates in [0, 1), and those of each texel, -1 outside
 /// Throws ResourceError when the expanded matrices do not fit in memory, FileError when it cannot write.
 ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& folder, Job& job);
 
 /// The radiance transfer texture alone, with a manifest: for projects in which nothing else is baked.
 /// `patch` may be null.
 ExportedFiles exportRtt(const Rtt& rtt, const Patch* patch, const std::filesystem::path& folder);
+
+/// Everything about the patch on the surface, and the atlas, of a project without transfer: positions,
+/// normals, tangents, faces, and the arrays above of what is given. Null pointers are left out.
+struct ExportParts {
+  const TriMesh& mesh;
+  const TangentFrames& frames;
+  const Atlas* atlas = nullptr;
+  const Rtt* rtt = nullptr;
+  const Patch* patch = nullptr;
+  const SynthesisProduct* synthesis = nullptr;
+  const IdMapProduct* idmap = nullptr;
+};
+ExportedFiles exportParts(const ExportParts& parts, const std::filesystem::path& folder, Job& job);
 
 /// environment.exr (the lights as a lat-long map, 1024 x 512; discs and directional lights left out),
 /// light_bands.exr (the light that transfer sees: `bands` bands, non-negative) and picture_NAME.exr, one of

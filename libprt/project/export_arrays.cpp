@@ -5,6 +5,7 @@
 #include "libprt/project/export.h"
 #include "libprt/project/export_atlas.h"
 #include "libprt/project/export_manifest.h"
+#include "libprt/project/export_synthesis.h"
 #include "libprt/project/lights.h"
 
 #include <algorithm>
@@ -141,7 +142,38 @@ void writeGloss(const ExportInput& input, const Write& write) {
         "viewer");
 }
 
+/// The patch on the surface: what there is of it.
+void writeLaidPatch(const SynthesisProduct* synthesis, const IdMapProduct* idmap, const Write& write,
+                    ExportManifest& manifest) {
+  if (synthesis && synthesis->meso) {
+    writeMesoArrays(*synthesis, write);
+    manifest.set("patch_width", synthesis->patchWidth).set("meso_edge", synthesis->meso->edge);
+  }
+  if (idmap && idmap->map) writeIdMapArray(*idmap->map, write);
+}
+
 }  // namespace
+
+ExportedFiles exportParts(const ExportParts& parts, const std::filesystem::path& folder, Job& job) {
+  ExportManifest manifest(folder, "npy");
+  manifest.set("vertices", parts.mesh.vertexCount()).set("faces", parts.mesh.triangleCount());
+  job.begin("arrays", 0);
+  const auto write = [&](const std::string& name, const Array& array, const std::string& doc) {
+    job.checkCancelled();
+    writeNpy(folder / (name + ".npy"), array);
+    manifest.addArray(name, array, doc);
+  };
+  write("positions", rows(parts.mesh.positions), "vertices in the common object frame");
+  write("normals", rows(parts.mesh.normals), "unit shading normals");
+  write("tangents", rows(vertexTangents(parts.mesh, parts.frames)),
+        "unit tangents, at a right angle to the normals");
+  write("faces", indices(parts.mesh.triangles), "corners of each triangle, counter-clockwise from outside");
+  if (parts.atlas) writeAtlasArrays(parts.mesh, *parts.atlas, job, write);
+  if (parts.rtt) writeRtt(*parts.rtt, folder, manifest);
+  if (parts.patch) writePatch(*parts.patch, folder, manifest);
+  writeLaidPatch(parts.synthesis, parts.idmap, write, manifest);
+  return manifest.finish();
+}
 
 ExportedFiles exportRtt(const Rtt& rtt, const Patch* patch, const std::filesystem::path& folder) {
   ExportManifest manifest(folder, "npy");
@@ -199,6 +231,7 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
         "exit radiance of a white Lambert surface per unit light coefficient");
   if (input.rtt) writeRtt(*input.rtt, folder, manifest);
   if (input.patch) writePatch(*input.patch, folder, manifest);
+  writeLaidPatch(input.synthesis.get(), input.idmap.get(), write, manifest);
   if (input.errors) {
     const DVec3& rms = input.errors->rms;
     manifest.set("error_rms", std::vector<double>{rms.x, rms.y, rms.z})

@@ -145,6 +145,40 @@ struct AtlasRecipe {
   bool operator==(const AtlasRecipe&) const = default;
 };
 
+/// Turns that leave the patch looking as it does.
+enum class FieldSymmetry { None, HalfTurn, QuarterTurn };
+
+/// The direction along which patches are laid (synthesis/orientation_field.h).
+struct FieldRecipe {
+  FieldSymmetry symmetry = FieldSymmetry::None;
+  float angle = 0;      ///< degrees against the general course, counter-clockwise from outside
+  std::string strokes;  ///< painted: see parseStrokes()
+  float width = 0.02f;  ///< of the band that follows a stroke, relative to the bounding box's diagonal
+  bool operator==(const FieldRecipe&) const = default;
+};
+
+enum class PatchMapping { Synthesis, Uv };
+
+/// How the patch is laid over the surface (synthesis/texture_synthesis.h, synthesis/direct_mapping.h).
+struct SynthesisRecipe {
+  PatchMapping mapping = PatchMapping::Synthesis;
+  int vertices = 960'000;  ///< of the meso mesh; 0 = one for each texel of the patch
+  float scale = 0.08f;     ///< patch width relative to the bounding box's diagonal
+  float jitter = 0;
+  int passes = 2;
+  std::string wishes;  ///< painted: see parseWishes()
+  int repeat = 8;      ///< Uv: patches along u
+  std::uint64_t seed = 1;
+  bool operator==(const SynthesisRecipe&) const = default;
+};
+
+/// The id map (synthesis/id_map.h).
+struct IdMapRecipe {
+  int size = 2048;
+  int neighbours = 20;
+  bool operator==(const IdMapRecipe&) const = default;
+};
+
 /// How a picture is made from the products; baking does not read it.
 struct MethodRecipe {
   std::string name = "auto";
@@ -161,6 +195,9 @@ struct Recipe {
   TransferRecipe transfer;
   PatchOptions patch;
   RttRecipe rtt;
+  FieldRecipe field;
+  SynthesisRecipe synthesis;
+  IdMapRecipe idmap;
   MethodRecipe method;
   bool operator==(const Recipe&) const = default;
 };

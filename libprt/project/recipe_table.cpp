@@ -46,6 +46,9 @@ const char* const kCostRtt = kCostPatch;
 const char* const kCostLight = "none: relights";
 const char* const kCostCharts = "unfolds the surface anew";
 const char* const kCostAtlas = "packs the charts anew";
+const char* const kCostField = "grows the patch over the surface anew";
+const char* const kCostSynthesis = kCostField;
+const char* const kCostIdMap = "makes the id map anew";
 
 const std::vector<std::string> kMappings{"auto",    "latlong", "vcross", "hcross",
                                          "angular", "hstrip",  "vstrip"};
@@ -843,6 +846,147 @@ const std::vector<Row<RttRecipe>> kRtt{
      "Seed of the ray directions; the same seed gives the same bits."},
 };
 
+const std::vector<Row<FieldRecipe>> kField{
+    {"symmetry",
+     [](FieldRecipe& x) -> FieldRef { return choice(x.symmetry); },
+     ParameterType::Choice,
+     "",
+     0,
+     0,
+     {"none", "half-turn", "quarter-turn"},
+     kCostField,
+     "Turns that leave the patch looking as it does; the more, the less the field must wind."},
+    {"angle",
+     [](FieldRecipe& x) -> FieldRef { return &x.angle; },
+     ParameterType::Number,
+     "degrees",
+     -180,
+     180,
+     {},
+     kCostField,
+     "Turn of the whole field, counter-clockwise seen from outside, against eastwards on a globe; pieces "
+     "with strokes go by these."},
+    {"strokes",
+     [](FieldRecipe& x) -> FieldRef { return &x.strokes; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostField,
+     "Lines painted on the surface that the field follows: points 'x,y,z' in the common frame, parted by "
+     "blanks, strokes by ';'."},
+    {"width",
+     [](FieldRecipe& x) -> FieldRef { return &x.width; },
+     ParameterType::Number,
+     "bounding boxes",
+     0.001,
+     0.5,
+     {},
+     kCostField,
+     "How far from a stroke the field follows it, relative to the diagonal of the bounding box."},
+};
+
+const std::vector<Row<SynthesisRecipe>> kSynthesis{
+    {"mapping",
+     [](SynthesisRecipe& x) -> FieldRef { return choice(x.mapping); },
+     ParameterType::Choice,
+     "",
+     0,
+     0,
+     {"synthesis", "uv"},
+     kCostSynthesis,
+     "How patches are laid: synthesis grows them over any surface; uv repeats them by the meshes own "
+     "coordinates, without an id map."},
+    {"vertices",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.vertices; },
+     ParameterType::Integer,
+     "vertices",
+     0,
+     8000000,
+     {},
+     kCostSynthesis,
+     "Vertices of the meso mesh, about; 0 = one for each texel of the patch as large as it is laid. Fewer "
+     "than 16 count as 16."},
+    {"scale",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.scale; },
+     ParameterType::Number,
+     "bounding boxes",
+     0.001,
+     10,
+     {},
+     kCostSynthesis,
+     "Width of a patch relative to the diagonal of the bounding box."},
+    {"jitter",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.jitter; },
+     ParameterType::Number,
+     "",
+     0,
+     1,
+     {},
+     kCostSynthesis,
+     "How far places are thrown about before they are corrected: breaks up the repetition of irregular "
+     "patches; 0 tiles wherever the surface lets it."},
+    {"passes",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.passes; },
+     ParameterType::Integer,
+     "passes",
+     0,
+     100,
+     {},
+     kCostSynthesis,
+     "Corrections on the finest level."},
+    {"wishes",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.wishes; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostSynthesis,
+     "Spots that take one part of the patch: 'x,y,z radius u,v extent', parted by ';'. Radius in the scene's "
+     "unit, u, v and extent in patch widths."},
+    {"repeat",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.repeat; },
+     ParameterType::Integer,
+     "patches",
+     1,
+     4096,
+     {},
+     kCostSynthesis,
+     "mapping=uv: patches along u; along v as many as make them nearest to square."},
+    {"seed",
+     [](SynthesisRecipe& x) -> FieldRef { return &x.seed; },
+     ParameterType::Integer,
+     "",
+     0,
+     kMaxSeed,
+     {},
+     kCostSynthesis,
+     "Seed of the meso mesh and of all chance; the same seed gives the same bits."},
+};
+
+const std::vector<Row<IdMapRecipe>> kIdMap{
+    {"size",
+     [](IdMapRecipe& x) -> FieldRef { return &x.size; },
+     ParameterType::Integer,
+     "texels",
+     16,
+     16384,
+     {},
+     kCostIdMap,
+     "Texels along a side."},
+    {"neighbours",
+     [](IdMapRecipe& x) -> FieldRef { return &x.neighbours; },
+     ParameterType::Integer,
+     "vertices",
+     1,
+     64,
+     {},
+     kCostIdMap,
+     "Nearest vertices of the meso mesh of which the one on the normal is taken."},
+};
+
 const std::vector<Row<MethodRecipe>> kMethod{
     {"name", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.name, kMethods); }, ParameterType::Choice,
      "", 0, 0, kMethods, kCostLight, "How pictures are made: auto takes what the materials ask for."},
@@ -876,6 +1020,9 @@ std::vector<Parameter> listParameters() {
   list(kTransfer, "transfer", all);
   list(kPatch, "patch", all);
   list(kRtt, "rtt", all);
+  list(kField, "field", all);
+  list(kSynthesis, "synthesis", all);
+  list(kIdMap, "idmap", all);
   list(kMethod, "method", all);
   return all;
 }
@@ -918,6 +1065,9 @@ void forEachField(Recipe& r, const std::function<void(const FieldPlace&, const F
   next = visitRows(kTransfer, r.transfer, "transfer", next, visit);
   next = visitRows(kPatch, r.patch, "patch", next, visit);
   next = visitRows(kRtt, r.rtt, "rtt", next, visit);
+  next = visitRows(kField, r.field, "field", next, visit);
+  next = visitRows(kSynthesis, r.synthesis, "synthesis", next, visit);
+  next = visitRows(kIdMap, r.idmap, "idmap", next, visit);
   visitRows(kMethod, r.method, "method", next, visit);
 }
 

@@ -81,6 +81,19 @@ void resolvePatch(Recipe& recipe) {
   }
 }
 
+/// Without a patch nothing is laid; by coordinates nothing is grown.
+void resolveSynthesis(Recipe& recipe) {
+  const SynthesisRecipe given = recipe.synthesis;
+  if (recipe.patch.model == PatchModel::None || given.mapping == PatchMapping::Uv) {
+    recipe.field = {}, recipe.synthesis = {}, recipe.idmap = {};
+    if (recipe.patch.model != PatchModel::None)
+      recipe.synthesis.mapping = given.mapping, recipe.synthesis.repeat = given.repeat;
+    return;
+  }
+  recipe.synthesis.repeat = SynthesisRecipe{}.repeat;
+  if (recipe.field.strokes.empty()) recipe.field.width = FieldRecipe{}.width;
+}
+
 void resolveMaterial(Material& material) {
   if (material.glossy()) return;
   const Material defaults;
@@ -110,6 +123,7 @@ Recipe resolved(const Recipe& recipe) {
   Recipe out = recipe;
   resolveTransfer(recipe, out.transfer);
   resolvePatch(out);
+  resolveSynthesis(out);
   for (ObjectRecipe& object : out.objects) {
     resolveMesh(object.mesh);
     resolveMaterial(object.material);

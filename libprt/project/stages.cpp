@@ -9,6 +9,7 @@
 #include "libprt/project/hand_cuts.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
+#include "libprt/project/synthesis_stages.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,9 +53,16 @@ std::vector<Stage> makeStages() {
        .inputs = {"scene"},
        .stored = false,
        .make = makeSamples},
+      {.name = "field",
+       .makes = "directions along which patches are laid",
+       .inputs = {"scene"},
+       .reads = {"field", "patch.model", "synthesis.mapping"},
+       .stored = false,
+       .previews = false,
+       .make = makeFieldStage},
       {.name = "frames",
        .makes = "a tangent frame at each corner of each triangle",
-       .inputs = {"scene"},
+       .inputs = {"scene", "field"},
        .stored = false,
        .make = makeFrames},
       {.name = "rays",
@@ -116,6 +124,21 @@ std::vector<Stage> makeStages() {
        .wanted = hasPatch,
        .make = makeRttStage,
        .load = RttProduct::load},
+      {.name = "synthesis",
+       .makes = "the place in the patch of every vertex of a dense mesh over the surface",
+       .inputs = {"scene", "frames", "rtt"},
+       .reads = {"field.symmetry", "synthesis"},
+       .wanted = onlyWhenAsked,
+       .previews = false,
+       .make = makeSynthesisStage,
+       .load = SynthesisProduct::load},
+      {.name = "idmap",
+       .makes = "the place in the patch of every texel of the atlas",
+       .inputs = {"scene", "atlas", "synthesis"},
+       .reads = {"idmap"},
+       .wanted = onlyWhenAsked,
+       .make = makeIdMapStage,
+       .load = IdMapProduct::load},
   };
 }
 
@@ -172,6 +195,9 @@ ProductPtr makeSamples(StageRun& run) {
 }
 
 ProductPtr makeFrames(StageRun& run) {
+  // Where patches are grown over the surface, their direction is everybody's tangent.
+  if (const auto field = run.input<FieldProduct>("field"); field && field->field)
+    return std::make_shared<FramesProduct>(field->field->frames);
   return std::make_shared<FramesProduct>(
       makeTangentFrames(run.input<SceneProduct>("scene")->scene->mesh, {}, run.job()));
 }

@@ -6,9 +6,10 @@
 //
 //   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
 //                  ├─> rays ────┘                       ├─> relight
-//                  └─> frames ──────────────────────────┘
-//   scene ─> charts ─> atlas
-//   patch ─> rtt
+//            (field) ─> frames ─────────────────────────┘
+//   scene ─> charts ─> atlas ────────────────────────┬─> idmap
+//   scene ─> field ─> frames ─┬─> synthesis ─────────┘
+//   patch ─> rtt ─────────────┘
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"

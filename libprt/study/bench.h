@@ -41,6 +41,8 @@ const std::vector<BenchInfo>& benches();
 BenchResult runBench(const std::string& name, Job& job, int repetitions = 0);
 /// Bench "atlas" of a mesh file instead of the built-in shapes.
 BenchResult runAtlasBench(const std::string& meshFile, Job& job, int repetitions = 0);
+/// Bench "pipeline" of a mesh file instead of the built-in bird.
+BenchResult runPipelineBench(const std::string& meshFile, Job& job);
 /// Bench "atlas" of a built-in shape of a million triangles against twenty times what a hundred thousand
 /// take.
 BenchResult runLargeAtlasBench(Job& job);

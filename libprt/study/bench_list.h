@@ -25,6 +25,10 @@ BenchResult benchStudio(Job& job, int repetitions);
 
 /// The automatic atlas of built-in shapes, or of one mesh file, against laying its charts flat alone.
 BenchResult benchAtlas(Job& job, int repetitions);
+/// Meso mesh, synthesis and id map against one pass over all neighbourhoods.
+BenchResult benchSynthesis(Job& job, int repetitions);
+/// A built-in mesh with a woven patch, from nothing to the first lit frame, against two minutes.
+BenchResult benchPipeline(Job& job, int repetitions);
 /// Adds to its details what cutting a chart of 10 000 triangles and dragging a corner of it take.
 void benchChartEdit(BenchResult& result, Job& job);
 

@@ -26,8 +26,9 @@ using nlohmann::json;
 using test::ProgramResult;
 using testing::HasSubstr;
 
-const std::vector<std::string> kCommands{"bake",   "relight", "reference", "compare", "info", "verify",
-                                         "export", "light",   "rtt",       "figures", "demo", "bench"};
+const std::vector<std::string> kCommands{"bake",    "relight", "reference", "compare", "info",
+                                         "verify",  "export",  "light",     "rtt",     "synthesis",
+                                         "figures", "demo",    "bench"};
 const std::set<std::string> kStored{"mesh", "direct", "transfer"};
 
 class Commands : public testing::Test {
