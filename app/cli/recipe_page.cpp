@@ -52,8 +52,11 @@ constexpr SectionTitle kSections[] = {
     {"patch", "Patch", "The fine structure of the surface, one period of it; see [meso scale](meso.md)."},
     {"rtt", "Radiance transfer texture", "How the patch answers to light; baked when there is a patch."},
     {"field", "Orientation field", "Along what patches are laid; see [synthesis](synthesis.md)."},
-    {"synthesis", "Synthesis", "How the patch covers the surface. Made with `--stage synthesis`."},
-    {"idmap", "Id map", "The place in the patch of every texel of the atlas. Made with `--stage idmap`."},
+    {"synthesis", "Synthesis",
+     "How the patch covers the surface. Made for `method.name=biscale`, or with `--stage synthesis`."},
+    {"idmap", "Id map",
+     "The place in the patch of every texel of the atlas. Made for `method.name=biscale`, or with `--stage "
+     "idmap`."},
     {"method", "Method", "How pictures are made from what is baked."},
 };
 

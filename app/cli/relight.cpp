@@ -63,7 +63,7 @@ void addRelight(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("relight", "Picture of a baked project under any light");
   options->view.addTo(*command);
-  command->add_option("--method", options->method, "auto, diffuse or glossy; default: the project's")
+  command->add_option("--method", options->method, "auto, diffuse, glossy or biscale; default: the project's")
       ->check(CLI::IsMember(parameterAt("method.name").choices));
   command
       ->add_option("--window", options->window,

@@ -1,5 +1,6 @@
 #include "libprt/basis/sh_rotation.h"
 
+#include "libprt/basis/sh_turns.h"
 #include "libprt/core/error.h"
 
 #include <algorithm>
@@ -134,71 +135,6 @@ void rotateAboutZ(int bands, double angle, std::span<T> c) {
   }
 }
 
-/// cos and sin of an angle, without the angle.
-struct Turn {
-  double cosine = 1, sine = 0;
-};
-Turn turnTowards(double x, double y) {
-  const double length = std::hypot(x, y);
-  return length > 0 ? Turn{x / length, y / length} : Turn{};
-}
-
-void turnAboutZ(int bands, Turn turn, double* c) {
-  Turn multiple = turn;
-  for (int m = 1; m < bands; ++m) {
-    for (int l = m; l < bands; ++l) {
-      double &plus = c[shIndex(l, m)], &minus = c[shIndex(l, -m)];
-      const double p = plus, q = minus;
-      plus = multiple.cosine * p - multiple.sine * q;
-      minus = multiple.sine * p + multiple.cosine * q;
-    }
-    multiple = {multiple.cosine * turn.cosine - multiple.sine * turn.sine,
-                multiple.sine * turn.cosine + multiple.cosine * turn.sine};
-  }
-}
-
-/// D of the quarter turn about x that takes z to y. Half of its elements are zero; they are left out.
-class QuarterTurn {
- public:
-  QuarterTurn() {
-    const ShRotation all(kMaxShOnceBands, glm::dmat3(DVec3(1, 0, 0), DVec3(0, 0, -1), DVec3(0, 1, 0)));
-    for (int l = 0; l < kMaxShOnceBands; ++l)
-      for (int m = -l; m <= l; ++m) {
-        rows_[std::size_t(shIndex(l, m))] = elements_.size();
-        for (int k = -l; k <= l; ++k) {
-          const double value = all.block(l)[std::size_t((m + l) * (2 * l + 1) + k + l)];
-          if (std::abs(value) > 1e-13) elements_.push_back({value, shIndex(l, k)});
-        }
-      }
-    rows_.back() = elements_.size();
-  }
-
-  /// to = D from; they must not overlap.
-  void forward(int bands, const double* from, double* to) const {
-    for (int i = 0; i < shCount(bands); ++i) {
-      double sum = 0;
-      for (std::size_t e = rows_[std::size_t(i)]; e < rows_[std::size_t(i) + 1]; ++e)
-        sum += elements_[e].value * from[elements_[e].column];
-      to[i] = sum;
-    }
-  }
-  /// to = D^-1 from, D being orthogonal.
-  void back(int bands, const double* from, double* to) const {
-    std::fill(to, to + shCount(bands), 0.0);
-    for (int i = 0; i < shCount(bands); ++i)
-      for (std::size_t e = rows_[std::size_t(i)]; e < rows_[std::size_t(i) + 1]; ++e)
-        to[elements_[e].column] += elements_[e].value * from[i];
-  }
-
- private:
-  struct Element {
-    double value;
-    int column;
-  };
-  std::vector<Element> elements_;
-  std::array<std::size_t, shCount(kMaxShOnceBands) + 1> rows_{};
-};
-
 }  // namespace
 
 ShRotation::ShRotation(int bands, const glm::dmat3& rotation) : bands_(bands) {
@@ -246,21 +182,10 @@ void rotateShOnce(int bands, const glm::dmat3& r, std::span<const double> from, 
   const auto count = std::size_t(shCount(bands));
   if (from.size() < count || to.size() < count)
     throw std::length_error("rotation: a coefficient span is too short");
-  static const QuarterTurn quarter;
-  // R = Rz(a) Ry(b) Rz(c), and Ry(b) = Q Rz(b) Q^-1. c is what is left of R when a and b are taken off, which
-  // holds at the poles too, where any a will do.
-  const double lean = std::hypot(r[2].x, r[2].y);
-  const Turn a = turnTowards(r[2].x, r[2].y), b = turnTowards(r[2].z, lean);
-  const double along = a.cosine * r[0].x + a.sine * r[0].y, across = a.cosine * r[0].y - a.sine * r[0].x;
-  const Turn c = turnTowards(b.cosine * along - b.sine * r[0].z, across);
-  std::array<double, shCount(kMaxShOnceBands)> here, there;
-  std::copy_n(from.begin(), count, here.begin());
-  turnAboutZ(bands, c, here.data());
-  quarter.back(bands, here.data(), there.data());
-  turnAboutZ(bands, b, there.data());
-  quarter.forward(bands, there.data(), here.data());
-  turnAboutZ(bands, a, here.data());
-  std::copy_n(here.begin(), count, to.begin());
+  std::array<double, shCount(kMaxShOnceBands)> turned, scratch;
+  std::copy_n(from.begin(), count, turned.begin());
+  turnSh(bands, shTurns(r), turned.data(), scratch.data());
+  std::copy_n(turned.begin(), count, to.begin());
 }
 
 void rotateShAboutZ(int bands, double angle, std::span<float> c) {

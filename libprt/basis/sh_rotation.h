@@ -6,6 +6,7 @@
 // factor of V for m < 0 is sqrt(1 + delta(m,-1)); with the printed sign D is not even orthogonal.
 
 #include "libprt/basis/sh.h"
+#include "libprt/basis/sh_turns.h"
 #include "libprt/core/math.h"
 
 #include <cstddef>
@@ -39,10 +40,8 @@ class ShRotation {
   std::vector<double> blocks_;
 };
 
-inline constexpr int kMaxShOnceBands = 33;
-
 /// to = D(R) from, the same as ShRotation::apply() to rounding, for one or two vectors only: nothing is made
-/// first, R is taken apart into turns about z, a quarter turn about x and its reverse. About a tenth of the
+/// first (sh_turns.h). About a tenth of the
 /// time of ShRotation's making at 9 bands. It is taken to be a rotation, unchecked: what rounding left skewed
 /// is not mended, only the lengths are. `to` may be `from`. Throws ValueError for more than kMaxShOnceBands.
 void rotateShOnce(int bands, const glm::dmat3& rotation, std::span<const double> from, std::span<double> to);

@@ -182,6 +182,7 @@ struct IdMapRecipe {
 /// How a picture is made from the products; baking does not read it.
 struct MethodRecipe {
   std::string name = "auto";
+  bool viewDependent = true;  ///< of the patch
   std::string window = "none";
   bool operator==(const MethodRecipe&) const = default;
 };

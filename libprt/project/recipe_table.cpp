@@ -52,7 +52,7 @@ const char* const kCostIdMap = "makes the id map anew";
 
 const std::vector<std::string> kMappings{"auto",    "latlong", "vcross", "hcross",
                                          "angular", "hstrip",  "vstrip"};
-const std::vector<std::string> kMethods{"auto", "diffuse", "glossy"};
+const std::vector<std::string> kMethods{"auto", "diffuse", "glossy", "biscale"};
 const std::vector<std::string> kWindows{"none", "hann", "lanczos", "fejer", "dering"};
 
 const std::vector<Row<ObjectRecipe>> kObject{
@@ -989,7 +989,18 @@ const std::vector<Row<IdMapRecipe>> kIdMap{
 
 const std::vector<Row<MethodRecipe>> kMethod{
     {"name", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.name, kMethods); }, ParameterType::Choice,
-     "", 0, 0, kMethods, kCostLight, "How pictures are made: auto takes what the materials ask for."},
+     "", 0, 0, kMethods, kCostLight,
+     "How pictures are made: auto takes what materials and patch ask for, biscale shows the patch on the "
+     "surface."},
+    {"viewDependent",
+     [](MethodRecipe& m) -> FieldRef { return &m.viewDependent; },
+     ParameterType::Boolean,
+     "",
+     0,
+     0,
+     {},
+     kCostLight,
+     "biscale: off, the patch looks from everywhere as it does from above, and hides nothing of itself."},
     {"window", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.window, kWindows); },
      ParameterType::Choice, "", 0, 0, kWindows, kCostLight,
      "Damps the light's upper bands against ringing; dering damps as little as leaves no negative light."},

@@ -1,13 +1,15 @@
 #include "libprt/project/relight.h"
 
 #include "libprt/core/error.h"
+#include "libprt/project/laid_patch.h"
 #include "libprt/project/lights.h"
+#include "libprt/shade/biscale.h"
 
 namespace prt {
 
 BakedScene bakedScene(const Products& products) {
   BakedScene baked{products.get<SceneProduct>("scene"), products.get<SamplesProduct>("samples"),
-                   products.get<TransferProduct>("transfer")};
+                   products.get<TransferProduct>("transfer"), nullptr};
   if (!baked.geometry || !baked.samples || !baked.transfer)
     throw ValueError("nothing is baked", "transfer", "bake it first");
   const ProductState& state = *products.state("transfer");
@@ -17,10 +19,14 @@ BakedScene bakedScene(const Products& products) {
 }
 
 BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project) {
-  const Products products = pipeline.find(recipe, {"scene", "samples", "transfer"});
+  std::vector<std::string> stages = stagesOfLaidPatch(recipe);
+  stages.insert(stages.end(), {"scene", "samples", "transfer"});
+  const Products products = pipeline.find(recipe, stages);
   if (!products.state("transfer"))
     throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
-  return bakedScene(products);
+  BakedScene baked = bakedScene(products);
+  baked.patch = laidPatch(products, recipe);
+  return baked;
 }
 
 Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
@@ -28,6 +34,13 @@ Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lig
   const Scene scene = withMaterials(*baked.geometry->scene, recipe);
   const Transfer& transfer = baked.transfer->transfer;
   const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
+  if (recipe.method.name == "biscale" && !baked.patch)
+    throw ValueError("no patch is laid over the surface", "method.name",
+                     "set patch.model and method.name=biscale, and bake");
+  if (recipe.method.name == "biscale")
+    return renderBiscale({*baked.patch, *baked.samples->samples, transfer, light,
+                          options.background ? &lights : nullptr, recipe.method.viewDependent},
+                         camera, options.width, options.height, options.grid, job);
   RenderInput input{scene,  *baked.samples->samples, transfer, light, shadeMethod(recipe.method.name), {},
                     nullptr};
   if (options.background) input.background = &lights;
@@ -38,7 +51,8 @@ ShadeMethod shadeMethod(const std::string& name) {
   if (name == "auto") return ShadeMethod::Auto;
   if (name == "diffuse") return ShadeMethod::Diffuse;
   if (name == "glossy") return ShadeMethod::Glossy;
-  throw ValueError("there is no method '" + name + "'", "method.name", "use auto, diffuse or glossy");
+  throw ValueError("there is no method '" + name + "'", "method.name",
+                   "use auto, diffuse, glossy or biscale");
 }
 
 }  // namespace prt

@@ -5,6 +5,7 @@
 #include "libprt/light/light_rig.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
+#include "libprt/shade/biscale_view.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/render.h"
 
@@ -18,8 +19,9 @@ struct BakedScene {
   std::shared_ptr<const SceneProduct> geometry;
   std::shared_ptr<const SamplesProduct> samples;
   std::shared_ptr<const TransferProduct> transfer;
-  int level = 0;   ///< of the transfer: passes done
-  int levels = 0;  ///< and wanted; a preview when level < levels
+  std::shared_ptr<const BiscaleSurface> patch;  ///< on the surface; null: there is none
+  int level = 0;                                ///< of the transfer: passes done
+  int levels = 0;                               ///< and wanted; a preview when level < levels
 
   bool final() const { return level >= levels; }
 };
@@ -36,7 +38,8 @@ struct PictureOptions {
   bool background = false;  ///< show the environment behind the scene
 };
 
-/// A relit picture: float RGBA, linear radiance, alpha = coverage (1 with background).
+/// A relit picture, by the method that the recipe names. Throws ValueError for biscale without a patch on the
+/// surface. Float RGBA, linear radiance, alpha = coverage (1 with background).
 Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
               const PictureOptions& options, Job& job);
 

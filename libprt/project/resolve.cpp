@@ -1,5 +1,6 @@
 // What a recipe comes to: `auto` decided, values without effect at their defaults.
 
+#include "libprt/project/laid_patch.h"
 #include "libprt/project/pipeline.h"
 
 #include <algorithm>
@@ -12,9 +13,9 @@ bool anyGlossy(const Recipe& recipe) {
                      [](const ObjectRecipe& o) { return o.visible && o.material.glossy(); });
 }
 
-/// The cheapest form that holds what the materials and bounces need.
+/// The cheapest form that holds what materials, patch and bounces need.
 TransferKind cheapestKind(const Recipe& recipe) {
-  if (!anyGlossy(recipe)) return TransferKind::Diffuse;
+  if (!anyGlossy(recipe) && !showsPatch(recipe)) return TransferKind::Diffuse;
   return recipe.transfer.bounces == 0 ? TransferKind::Visibility : TransferKind::Matrix;
 }
 

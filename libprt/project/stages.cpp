@@ -7,6 +7,7 @@
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/errors.h"
 #include "libprt/project/hand_cuts.h"
+#include "libprt/project/laid_patch.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/synthesis_stages.h"
@@ -28,9 +29,9 @@ ProductPtr makeTransfer(StageRun& run);
 ProductPtr makeFloor(StageRun& run);
 std::string directForm(const Recipe& recipe);
 
-/// For products that nothing is drawn from yet: made by `--stage`.
-bool onlyWhenAsked(const Recipe&) {
-  return false;
+/// Charts, and what lies on them: for pictures of the patch on the surface; else by `--stage`.
+bool grownPatch(const Recipe& recipe) {
+  return showsPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Synthesis;
 }
 
 /// The pipeline. A stage reads its inputs and the parts of the recipe that stand in its line, nothing else.
@@ -57,6 +58,7 @@ std::vector<Stage> makeStages() {
        .makes = "directions along which patches are laid",
        .inputs = {"scene"},
        .reads = {"field", "patch.model", "synthesis.mapping"},
+       .wanted = grownPatch,
        .stored = false,
        .previews = false,
        .make = makeFieldStage},
@@ -98,7 +100,7 @@ std::vector<Stage> makeStages() {
        .inputs = {"mesh", "scene"},
        .reads = {"objects[].seams", "charts"},
        .derives = cornersText,
-       .wanted = onlyWhenAsked,
+       .wanted = grownPatch,
        .previews = false,
        .make = makeChartsStage,
        .load = ChartsProduct::load},
@@ -106,7 +108,7 @@ std::vector<Stage> makeStages() {
        .makes = "all charts side by side in one square",
        .inputs = {"scene", "charts"},
        .reads = {"objects[].charts", "atlas"},
-       .wanted = onlyWhenAsked,
+       .wanted = grownPatch,
        .previews = false,
        .make = makeAtlasStage,
        .load = AtlasProduct::load},
@@ -128,7 +130,7 @@ std::vector<Stage> makeStages() {
        .makes = "the place in the patch of every vertex of a dense mesh over the surface",
        .inputs = {"scene", "frames", "rtt"},
        .reads = {"field.symmetry", "synthesis"},
-       .wanted = onlyWhenAsked,
+       .wanted = grownPatch,
        .previews = false,
        .make = makeSynthesisStage,
        .load = SynthesisProduct::load},
@@ -136,7 +138,7 @@ std::vector<Stage> makeStages() {
        .makes = "the place in the patch of every texel of the atlas",
        .inputs = {"scene", "atlas", "synthesis"},
        .reads = {"idmap"},
-       .wanted = onlyWhenAsked,
+       .wanted = grownPatch,
        .make = makeIdMapStage,
        .load = IdMapProduct::load},
   };

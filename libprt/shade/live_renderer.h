@@ -12,6 +12,7 @@
 #include "libprt/core/job.h"
 #include "libprt/light/environment.h"
 #include "libprt/light/light_rig.h"
+#include "libprt/shade/biscale.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/display_table.h"
 #include "libprt/shade/live_shading.h"
@@ -40,6 +41,9 @@ struct LiveScene {
   // Further light that is seen behind the model. With none of the three there is `behind`.
   std::vector<CircleLight> circles = {};
   Rgb constant{0};
+  /// Not null: the scene carries a patch, shown by biscale.h; materials have no part in it.
+  std::shared_ptr<const BiscaleSurface> patch = {};
+  bool viewDependent = true;  ///< false: the patch looks from everywhere as it does from above
 };
 
 struct LivePicture {
@@ -61,6 +65,7 @@ class LiveRenderer {
  private:
   void followView(const LiveScene& scene, const LivePicture& picture, Job& job);
   void followLight(const LiveScene& scene, Job& job);
+  void followPatchLight(const LiveScene& scene, Job& job);
 
   // What the view was made from, and the light.
   struct ViewKey {
@@ -69,6 +74,8 @@ class LiveRenderer {
     std::vector<bool> twoSided;
     Camera camera;
     int width = 0, height = 0, grid = 0;
+    std::shared_ptr<const BiscaleSurface> patch;
+    bool viewDependent = true;
     bool operator==(const ViewKey&) const = default;
   };
   struct LightKey {
@@ -84,6 +91,8 @@ class LiveRenderer {
   LiveView view_;
   LiveLight light_;
   LiveMaterials materials_;
+  BiscaleView patchView_;
+  BiscaleLight patchLight_;
   std::optional<DisplayTable> display_;
 };
 

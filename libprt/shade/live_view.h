@@ -4,6 +4,7 @@
 #include "libprt/core/job.h"
 #include "libprt/core/math.h"
 #include "libprt/shade/camera.h"
+#include "libprt/shade/live_pixels.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
 
@@ -16,9 +17,7 @@ namespace prt {
 
 /// Fragments of a rectangle of pixels that reflect light, row by row; arrays end with copies of the last one,
 /// without a share, up to a multiple of kLiveLanes.
-struct LiveTile {
-  int x = 0, y = 0;  ///< first pixel
-  int width = 0, height = 0;
+struct LiveTile : PixelTile {
   std::size_t count = 0;             ///< fragments, without the copies
   std::vector<std::uint32_t> pixel;  ///< row * width + column
   std::vector<float> share;          ///< of the pixel
@@ -26,7 +25,6 @@ struct LiveTile {
   std::vector<std::array<std::uint32_t, 3>> slot;  ///< of the triangle's samples in LiveView::samples
   std::vector<Vec3> weight;                        ///< and their weights
   std::array<std::vector<float>, 3> normal, view;  ///< unit, on the side that is seen; towards the viewer
-  std::vector<float> open;  ///< [width * height] share of each pixel that shows the background
 };
 
 inline constexpr std::size_t kLiveLanes = 8;

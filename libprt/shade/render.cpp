@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
 #include "libprt/material/glossy_response.h"
+#include "libprt/shade/background.h"
 #include "libprt/shade/surface_light.h"
 
 #include <algorithm>
@@ -144,21 +145,10 @@ Rgb sound(const Rgb& c) {
   return {one(c.x), one(c.y), one(c.z)};
 }
 
-/// Light behind a pixel, mean over its samples.
-Rgb backgroundOf(const LightRig& rig, const CameraRays& rays, int x, int y, int grid) {
-  Rgb sum(0);
-  for (int sy = 0; sy < grid; ++sy)
-    for (int sx = 0; sx < grid; ++sx)
-      sum += radiance(rig, normalize(rays.background(float(x) + (float(sx) + 0.5f) / float(grid),
-                                                     float(y) + (float(sy) + 0.5f) / float(grid))));
-  return sum / float(grid * grid);
-}
-
 template <class Shader>
 Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera,
                  const Shader& shader, Job& job) {
   Image image(view.width, view.height, 4);
-  const CameraRays rays(camera, view.width, view.height);
   const float part = 1.0f / float(view.grid * view.grid);
   parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
     const FragmentTile& tile = view.tiles[t];
@@ -173,16 +163,12 @@ Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Came
           if (s.material) sum += weight * sound(shader(f, s));
           alpha += weight;
         }
-        if (input.background && alpha < 1) {
-          sum +=
-              (1 - alpha) * sound(backgroundOf(*input.background, rays, tile.x + x, tile.y + y, view.grid));
-          alpha = 1;
-        }
         float* to = image.pixel(tile.x + x, tile.y + y);
         to[0] = sum.x, to[1] = sum.y, to[2] = sum.z, to[3] = alpha;
       }
     }
   });
+  if (input.background) addBackground(*input.background, camera, view.grid, image, job);
   return image;
 }
 

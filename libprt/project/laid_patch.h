@@ -1,0 +1,22 @@
+#pragma once
+// The patch on the surface, put together from products: what bi-scale pictures need beside transfer.
+
+#include "libprt/project/pipeline.h"
+#include "libprt/shade/biscale_view.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// The stages that laidPatch() reads for this recipe; empty when it lays no patch.
+std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe);
+
+/// Null when the recipe lays no patch, or a product is missing or only a preview of a coarser mesh.
+std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe);
+
+/// Whether pictures of this recipe show the patch on the surface once it is laid: method.name is biscale.
+bool showsPatch(const Recipe& recipe);
+
+}  // namespace prt

@@ -1,0 +1,34 @@
+#include "libprt/shade/patch_cover.h"
+
+#include "libprt/core/error.h"
+#include "libprt/synthesis/surface_point.h"
+
+#include <algorithm>
+
+namespace prt {
+
+PatchCover::PatchCover(std::shared_ptr<const Atlas> atlas, std::shared_ptr<const IdMap> map,
+                       std::size_t triangles)
+    : atlas_(std::move(atlas)), map_(std::move(map)) {
+  if (atlas_->uvTriangles.size() != triangles)
+    throw ValueError("the atlas was made for another mesh", "patch on the surface", "bake idmap again");
+}
+
+PatchCover::PatchCover(std::shared_ptr<const TriMesh> mesh, const PatchRepeat& repeat)
+    : mesh_(std::move(mesh)), repeat_(repeat) {
+  if (mesh_->uv.empty())
+    throw ValueError("the mesh has no texture coordinates", "patch on the surface",
+                     "set synthesis.mapping=synthesis");
+}
+
+Vec2 PatchCover::at(std::uint32_t triangle, const Vec2& barycentric) const {
+  if (mesh_) return directPatchCoordinates(*mesh_, repeat_, triangle, barycentric);
+  const UVec3& t = atlas_->uvTriangles[triangle];
+  const Vec2 uv = interpolated(atlas_->uv[t.x], atlas_->uv[t.y], atlas_->uv[t.z], barycentric);
+  const int last = map_->size - 1;
+  const int x = std::clamp(int(uv.x * float(map_->size)), 0, last),
+            y = std::clamp(int((1 - uv.y) * float(map_->size)), 0, last);
+  return map_->at(std::size_t(y) * std::size_t(map_->size) + std::size_t(x));
+}
+
+}  // namespace prt

@@ -1,0 +1,31 @@
+#pragma once
+// Which place of the patch each point of a surface shows: by the id map over the atlas, or by the mesh's own
+// texture coordinates, repeated (Bi-Scale Radiance Transfer, section 5).
+
+#include "libprt/atlas/atlas.h"
+#include "libprt/mesh/mesh.h"
+#include "libprt/synthesis/direct_mapping.h"
+#include "libprt/synthesis/id_map.h"
+
+#include <memory>
+
+namespace prt {
+
+class PatchCover {
+ public:
+  /// Throws ValueError when the atlas is not of a mesh with so many triangles.
+  PatchCover(std::shared_ptr<const Atlas> atlas, std::shared_ptr<const IdMap> map, std::size_t triangles);
+  /// `mesh` has texture coordinates. Throws ValueError when not.
+  PatchCover(std::shared_ptr<const TriMesh> mesh, const PatchRepeat& repeat);
+
+  /// Patch coordinates in [0, 1), nearest texel of the id map; negative where it is empty.
+  Vec2 at(std::uint32_t triangle, const Vec2& barycentric) const;
+
+ private:
+  std::shared_ptr<const Atlas> atlas_;
+  std::shared_ptr<const IdMap> map_;
+  std::shared_ptr<const TriMesh> mesh_;
+  PatchRepeat repeat_;
+};
+
+}  // namespace prt
