@@ -29,6 +29,8 @@ BenchResult benchAtlas(Job& job, int repetitions);
 BenchResult benchSynthesis(Job& job, int repetitions);
 /// A built-in mesh with a woven patch, from nothing to the first lit frame, against two minutes.
 BenchResult benchPipeline(Job& job, int repetitions);
+/// Frames of both scales together, light and view changing, against the paper's; `repetitions` of them.
+BenchResult benchBiscale(Job& job, int repetitions);
 /// Adds to its details what cutting a chart of 10 000 triangles and dragging a corner of it take.
 void benchChartEdit(BenchResult& result, Job& job);
 

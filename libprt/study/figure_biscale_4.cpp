@@ -8,6 +8,7 @@
 #include "libprt/shade/patch_square.h"
 #include "libprt/shade/tonemap.h"
 #include "libprt/study/figure_list.h"
+#include "libprt/study/figure_page.h"
 
 #include <nlohmann/json.hpp>
 
@@ -56,32 +57,20 @@ ShRgb lightOf(const Lighting& lighting) {
 }
 
 std::string pageOf(double seconds, const Rtt& rtt) {
-  std::string page = R"html(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>Bi-Scale Radiance Transfer, figure 4</title>
-<style>
-:root { color-scheme: dark; }
-body { margin: 0; background: #1e1e1e; color: #d6d6d6; font: 14px/1.5 system-ui, sans-serif; }
-main { max-width: 1440px; margin: 0 auto; padding: 32px 24px; }
-h1 { font-size: 22px; font-weight: 600; margin: 0 0 4px; } p { color: #8c8c8c; max-width: 60em; margin: 0 0 24px; }
-table { border-spacing: 8px; width: 100%; } td, th { font-weight: 400; text-align: left; color: #8c8c8c; font-size: 12px; vertical-align: top; }
-img { width: 100%; display: block; border-radius: 4px; background: #161616; }
-</style></head><body><main>
-<h1>The weave's radiance transfer texture on a square</h1>
-<p>Two views, five lights of equal irradiance: shadows between the yarns follow the light, the look changes with the view.
-)html";
   char text[256];
-  std::snprintf(text, sizeof text,
-                "Baked in %.1f s: %d x %d texels, %d x %d views, %d functions, %d bounces.</p>\n<table>\n",
-                seconds, rtt.texels, rtt.texels, rtt.views, rtt.views, rtt.functions(), rtt.bounces);
-  page += text;
+  std::snprintf(
+      text, sizeof text,
+      "Two views, five lights of equal irradiance: shadows between the yarns follow the light, the look "
+      "changes with the view. Baked in %.1f s: %d x %d texels, %d x %d views, %d functions, %d bounces.",
+      seconds, rtt.texels, rtt.texels, rtt.views, rtt.views, rtt.functions(), rtt.bounces);
+  std::vector<std::vector<FigurePicture>> rows;
   for (const Viewpoint& view : kViews) {
-    page += "<tr>";
+    rows.emplace_back();
     for (const Lighting& light : kLights)
-      page += std::string("<td><img src=\"") + view.name + "_" + light.name + ".png\" alt=\"" + view.text +
-              ", " + light.text + "\">" + light.text + ", " + view.text + "</td>";
-    page += "</tr>\n";
+      rows.back().push_back(
+          {std::string(view.name) + "_" + light.name + ".png", std::string(light.text) + ", " + view.text});
   }
-  return page + "</table>\n</main></body></html>\n";
+  return figurePage("The weave's radiance transfer texture on a square", text, rows);
 }
 
 }  // namespace

@@ -11,5 +11,6 @@
 namespace prt {
 
 nlohmann::json makeBiscale4(const std::filesystem::path& folder, Job& job);
+nlohmann::json makeBiscale6(const std::filesystem::path& folder, Job& job);
 
 }  // namespace prt

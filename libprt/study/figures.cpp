@@ -16,7 +16,10 @@ struct Entry {
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all{
       {{"biscale-4", "the weave's radiance transfer texture on a square: two views, five lights"},
-       makeBiscale4}};
+       makeBiscale4},
+      {{"biscale-6",
+        "a woven bird without and with the macro scale and views, and its id map (figures 2 and 6)"},
+       makeBiscale6}};
   return all;
 }
 

@@ -15,7 +15,7 @@ struct FigureInfo {
   std::string name;
   std::string shows;  ///< one line for people
 };
-/// All figures, by name: "biscale-4".
+/// All figures, by name: "biscale-4", "biscale-6".
 const std::vector<FigureInfo>& figures();
 
 /// Makes one into a folder (made where it is not there): PNG files and index.html. Returns what is in it and
