@@ -8,6 +8,7 @@
 #include "ui/docks/patch_dock.h"
 #include "ui/docks/rtt_dock.h"
 #include "ui/docks/scene_dock.h"
+#include "ui/docks/synthesis_dock.h"
 #include "ui/docks/transfer_dock.h"
 #include "ui/document_menu.h"
 #include "ui/model/chart_editor.h"
@@ -184,6 +185,8 @@ void MainWindow::makeDocks() {
   QDockWidget* patch =
       addDock(tr("Patch"), QStringLiteral("patch"), new PatchDock(session_), Qt::RightDockWidgetArea);
   addDock(tr("RTT"), QStringLiteral("rtt"), new RttDock(session_), Qt::RightDockWidgetArea);
+  QDockWidget* synthesis = addDock(tr("Synthesis"), QStringLiteral("synthesis"), new SynthesisDock(session_),
+                                   Qt::RightDockWidgetArea);
 
   const auto bring = [this](QDockWidget* dock) {
     return [this, name = dock->objectName()] { bringToFront(name); };
@@ -212,6 +215,15 @@ void MainWindow::makeDocks() {
         return none ? ProductStatus::Missing : meso();
       },
       bring(patch));
+  const auto laid = stage({"field", "synthesis", "idmap"});
+  strip_->addStep(
+      tr("Synthesis"), tr("The patch laid over the surface."),
+      [this, laid] {
+        const Recipe& recipe = session_.document().recipe();
+        const bool shown = recipe.patch.model != PatchModel::None && recipe.method.name == "biscale";
+        return shown ? laid() : ProductStatus::Missing;
+      },
+      bring(synthesis));
   strip_->addStep(tr("Transfer"), tr("What is baked for the surface."), stage({"direct", "transfer"}),
                   bring(transfer));
   strip_->addStep(

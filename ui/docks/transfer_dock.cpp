@@ -74,8 +74,12 @@ void TransferDock::refresh() {
 void TransferDock::refreshProducts() {
   auto* grid = static_cast<QGridLayout*>(products_->layout());
   std::vector<StageInfo> infos = session_.bakes().stageInfos();
-  std::erase_if(infos, [](const StageInfo& info) {  // the meso scale has a dock of its own
-    return !info.stored || info.name == QLatin1String("patch") || info.name == QLatin1String("rtt");
+  std::erase_if(infos, [](const StageInfo& info) {  // charts and the meso scale have docks of their own
+    static const QStringList others{QStringLiteral("patch"),  QStringLiteral("rtt"),
+                                    QStringLiteral("charts"), QStringLiteral("atlas"),
+                                    QStringLiteral("field"),  QStringLiteral("synthesis"),
+                                    QStringLiteral("idmap")};
+    return !info.stored || others.contains(info.name);
   });
   for (int row = 0; row < int(infos.size()); ++row) {
     if (!grid->itemAtPosition(row, 0)) {

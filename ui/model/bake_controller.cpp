@@ -20,7 +20,7 @@ bool covers(const std::string& section, const std::string& path) {
 }
 
 // What the studio shows. What these are made from follows by itself.
-const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt"};
+const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt", "idmap"};
 
 const Stage& stageNamed(const std::string& name) {
   return *std::find_if(stages().begin(), stages().end(),
@@ -35,7 +35,8 @@ void collect(const std::string& name, QStringList& into) {
   for (const std::string& input : stageNamed(name).inputs) collect(input, into);
 }
 
-// Those and what they are made from. The charts are worked on elsewhere: cutting must not stop a bake.
+// Those and what they are made from. Charts are baked only for a patch on the surface: cutting must not stop
+// other bakes.
 bool isBakedHere(const Stage& stage) {
   static const std::set<std::string> needed = [] {
     QStringList all;
@@ -77,12 +78,21 @@ bool sameBake(const Recipe& a, const Recipe& b) {
     return false;
   }();
   return !lightsMatter && a.objects == b.objects && a.transfer == b.transfer && a.patch == b.patch &&
-         a.rtt == b.rtt;
+         a.rtt == b.rtt && a.charts == b.charts && a.atlas == b.atlas && a.field == b.field &&
+         a.synthesis == b.synthesis && a.idmap == b.idmap && a.method.name == b.method.name;
 }
 
 bool wantedBy(const Recipe& recipe, const std::string& stage) {
   const auto& wanted = stageNamed(stage).wanted;
   return !wanted || wanted(recipe);
+}
+
+// What a bake of this recipe makes: what the studio shows of it, and what that is made from.
+QStringList stagesFor(const Recipe& recipe) {
+  QStringList all;
+  for (const std::string& name : kWanted)
+    if (wantedBy(recipe, name)) collect(name, all);
+  return all;
 }
 
 QStringList withInputs(const std::string& name) {
@@ -167,9 +177,14 @@ void BakeController::setRecipe(const Recipe& recipe) {
   }
   recipe_ = recipe;
   std::map<std::string, std::string> wanted = readings(recipe);
-  if (wanted == wanted_) return;
+  const QStringList needed = stagesFor(recipe);
+  bool otherStages = false;
+  for (StageInfo& info : infos_) {
+    const bool now = needed.contains(info.name);
+    otherStages = std::exchange(info.wanted, now) != now || otherStages;
+  }
+  if (wanted == wanted_ && !otherStages) return;
   wanted_ = std::move(wanted);
-  for (StageInfo& info : infos_) info.wanted = wantedBy(recipe, info.name.toStdString());
   cancel();
   refreshStale();
   if (automatic_ && !fresh()) start();

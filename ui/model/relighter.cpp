@@ -39,6 +39,7 @@ void Relighter::setScene(std::shared_ptr<const Scene> scene) {
     samples_.reset();
     nextSamples_.reset();
     transfer_.reset();
+    patch_.reset();
   }
   materials_ = scene_ ? scene_->materials : std::vector<Material>{};
   ++sceneVersion_;
@@ -93,6 +94,17 @@ void Relighter::setMaterials(std::vector<Material> materials) {
   materials_ = std::move(materials);
   ++materialVersion_;
   Q_EMIT changed();
+}
+
+void Relighter::setPatch(std::shared_ptr<const BiscaleSurface> patch) {
+  if (patch == patch_ || (patch && (!scene_ || !sameGeometry(*patch->scene, *scene_)))) return;
+  patch_ = std::move(patch);
+  Q_EMIT changed();
+}
+
+std::shared_ptr<const BiscaleSurface> Relighter::shownPatch() const {
+  const bool held = !transfer_ || transfer_->form != TransferForm::Diffuse;
+  return method_.name == "biscale" && held ? patch_ : nullptr;
 }
 
 const ShRgb& Relighter::light() {

@@ -7,6 +7,7 @@
 #include "libprt/light/light_rig.h"
 #include "libprt/material/material.h"
 #include "libprt/project/recipe.h"
+#include "libprt/shade/biscale_view.h"
 #include "libprt/shade/surface_light.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
@@ -43,6 +44,8 @@ class Relighter : public QObject {
   /// All lights but the environment's map, which stays, and the window that keeps them from ringing.
   void setLights(const LightRig& rig, const MethodRecipe& method = {});
   void setMaterials(std::vector<Material> materials);
+  /// The patch on the surface; null: none. It goes with its scene.
+  void setPatch(std::shared_ptr<const BiscaleSurface> patch);
 
   const std::shared_ptr<const Scene>& scene() const { return scene_; }
   const std::shared_ptr<const SampleSet>& samples() const { return samples_; }
@@ -53,6 +56,8 @@ class Relighter : public QObject {
   const std::shared_ptr<const EnvironmentMap>& backdrop() const { return backdrop_.sharp; }
   const std::shared_ptr<const EnvironmentMap>& blurredBackdrop() const { return backdrop_.blurred; }
   const std::vector<Material>& materials() const { return materials_; }
+  /// Null unless it is there and method() asks for it.
+  std::shared_ptr<const BiscaleSurface> shownPatch() const;
   int bands() const { return transfer_ ? transfer_->bands : kUnshadowedBands; }
 
   /// Coefficients of all lights, bands() bands.
@@ -88,6 +93,7 @@ class Relighter : public QObject {
   LightRig rig_;
   MethodRecipe method_;
   std::vector<Material> materials_;
+  std::shared_ptr<const BiscaleSurface> patch_;
   ShRgb light_;
   SurfaceLight surface_;
   quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0;

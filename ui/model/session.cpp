@@ -288,8 +288,9 @@ PictureStatus Session::status() const {
   const bool glossy =
       std::any_of(materials.begin(), materials.end(), [](const Material& m) { return m.glossy(); });
   status.bands = relighter_.bands();
-  status.method =
-      glossy && !(transfer && transfer->form == TransferForm::Diffuse) ? tr("Glossy") : tr("Diffuse");
+  status.method = relighter_.shownPatch()                                            ? tr("Bi-scale")
+                  : glossy && !(transfer && transfer->form == TransferForm::Diffuse) ? tr("Glossy")
+                                                                                     : tr("Diffuse");
   if (!transfer) return status;
   status.level = level_;
   status.levels = levels_;

@@ -13,6 +13,7 @@
 #include "ui/model/relighter.h"
 #include "ui/model/scene_rays.h"
 #include "ui/model/surface_layers.h"
+#include "ui/model/surface_patch.h"
 #include "ui/model/view_state.h"
 
 #include <QObject>
@@ -155,6 +156,7 @@ class Session : public QObject {
   std::unique_ptr<ChartEditor> charts_;
   std::unique_ptr<DefectView> defects_;
   std::unique_ptr<ErrorEstimate> errors_;
+  SurfacePatch patch_{document_, bakes_, relighter_, jobs_};
 };
 
 }  // namespace prt::ui

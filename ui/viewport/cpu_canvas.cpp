@@ -107,6 +107,8 @@ LiveScene CpuCanvas::liveScene() const {
   scene.environment = sky.map;
   scene.circles = sky.circles;
   scene.constant = sky.constant;
+  scene.patch = lit.shownPatch();
+  scene.viewDependent = lit.method().viewDependent;
   return scene;
 }
 

@@ -18,12 +18,12 @@ QString s(const char* text) {
 
 std::vector<LayoutPlan> layoutPlans() {
   const QStringList jobsAndLog{s("jobs"), s("log")};
-  const QStringList mesoDocks{s("charts"), s("patch"), s("rtt")};
+  const QStringList mesoDocks{s("charts"), s("patch"), s("rtt"), s("synthesis")};
   return {
       {.name = s("author"),
        .title = QObject::tr("Author"),
        .tip = QObject::tr(
-           "Docks for charts and the fine structure: cut and pack, the patch and how it answers to light."),
+           "Docks for charts and the fine structure: cut and pack, the patch, how it answers to light and how it is laid."),
        .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
        .right = {kRightWidth, {{mesoDocks, 848}}},
        .hidden = {s("material"), s("transfer")}},

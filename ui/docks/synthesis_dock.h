@@ -1,0 +1,47 @@
+#pragma once
+// How the patch is laid over the surface: grown by synthesis along a field of directions, or by the mesh's
+// own coordinates; what came of it, in numbers and as the id map.
+
+#include "ui/model/synthesis_look.h"
+#include "ui/widgets/section.h"
+
+#include <vector>
+
+class QCheckBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace prt::ui {
+
+class PropertyRow;
+class Session;
+
+class SynthesisDock : public DockColumn {
+  Q_OBJECT
+ public:
+  explicit SynthesisDock(Session& session, QWidget* parent = nullptr);
+
+ private:
+  Section* makeShown();
+  Section* makeRows(const QString& title, const std::vector<const char*>& paths);
+  Section* makeResult();
+  void refresh();
+  void refreshResult();
+  QString resultText() const;
+  /// The bake that runs and makes what this dock shows; null when none does.
+  const JobInfo* ownJob() const;
+  ProductStatus status() const;
+
+  Session& session_;
+  SynthesisLook look_;
+  QCheckBox* shown_;
+  PropertyRow* views_ = nullptr;
+  Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr;
+  std::vector<PropertyRow*> grownRows_, laidRows_;
+  QLabel *map_, *state_;
+  QProgressBar* bar_;
+  QPushButton* button_;
+};
+
+}  // namespace prt::ui
