@@ -990,8 +990,7 @@ const std::vector<Row<IdMapRecipe>> kIdMap{
 const std::vector<Row<MethodRecipe>> kMethod{
     {"name", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.name, kMethods); }, ParameterType::Choice,
      "", 0, 0, kMethods, kCostLight,
-     "How pictures are made: auto takes what materials and patch ask for, biscale shows the patch on the "
-     "surface."},
+     "How pictures are made: auto takes what the materials ask for, biscale shows the patch on the surface."},
     {"viewDependent",
      [](MethodRecipe& m) -> FieldRef { return &m.viewDependent; },
      ParameterType::Boolean,
