@@ -22,8 +22,8 @@ std::vector<LayoutPlan> layoutPlans() {
   return {
       {.name = s("author"),
        .title = QObject::tr("Author"),
-       .tip = QObject::tr(
-           "Docks for charts and the fine structure: cut and pack, the patch, how it answers to light and how it is laid."),
+       .tip = QObject::tr("Docks for charts and the fine structure: cut and pack, the patch, how it answers "
+                          "to light and how it is laid."),
        .left = {kLeftWidth, {{{s("scene")}, 204}, {{s("light")}, 472}, {jobsAndLog, 172}}},
        .right = {kRightWidth, {{mesoDocks, 848}}},
        .hidden = {s("material"), s("transfer")}},
