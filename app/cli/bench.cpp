@@ -45,7 +45,7 @@ void bench(Session& session, const Options& options) {
   const BenchResult result =
       options.large                ? runLargeAtlasBench(session.job())
       : options.mesh.empty()       ? runBench(options.name, session.job(), options.repetitions)
-      : options.name == "pipeline" ? runPipelineBench(options.mesh, session.job())
+      : options.name == "pipeline" ? runPipelineBench(pipelineBenchRecipe(options.mesh), session.job())
                                    : runAtlasBench(options.mesh, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
   session.say(fmt::format("  ours     {:.4g} {}", result.ours.value, result.ours.unit));

@@ -12,6 +12,8 @@
 
 namespace prt {
 
+struct Recipe;
+
 struct BenchResult {
   struct Value {
     double value = 0;
@@ -41,8 +43,10 @@ const std::vector<BenchInfo>& benches();
 BenchResult runBench(const std::string& name, Job& job, int repetitions = 0);
 /// Bench "atlas" of a mesh file instead of the built-in shapes.
 BenchResult runAtlasBench(const std::string& meshFile, Job& job, int repetitions = 0);
-/// Bench "pipeline" of a mesh file instead of the built-in bird.
-BenchResult runPipelineBench(const std::string& meshFile, Job& job);
+/// Bench "pipeline" of another recipe than its own, which is that of the built-in bird.
+BenchResult runPipelineBench(const Recipe& recipe, Job& job);
+/// The bench's recipe for a mesh: a weave at its defaults, transfer matrices.
+Recipe pipelineBenchRecipe(const std::string& mesh);
 /// Bench "atlas" of a built-in shape of a million triangles against twenty times what a hundred thousand
 /// take.
 BenchResult runLargeAtlasBench(Job& job);
