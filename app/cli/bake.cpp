@@ -47,6 +47,10 @@ void tell(const Session& session, const BakeSummary& s) {
     session.say(fmt::format(
         "errors to expect: interpolation floor {:.2f} % (+- {:.2f}), Monte Carlo {:.2f} %",
         100 * s.floor->interpolation, 100 * s.floor->interpolationError, 100 * s.floor->sampling));
+  if (s.synthesis)
+    session.say(
+        fmt::format("patch on the surface: {} vertices, distance {:.3f} (1 = unrelated), coherence {:.1f} %",
+                    s.synthesis->vertices, s.synthesis->distance, 100 * s.synthesis->coherence));
   if (s.atlas)
     session.say(
         fmt::format("atlas: {} charts, L2 stretch {:.4f} (largest {:.2f}), seams {:.2f} roots of the area, "

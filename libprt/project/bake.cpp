@@ -7,6 +7,7 @@
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
+#include "libprt/project/synthesis_stages.h"
 
 #include <nlohmann/json.hpp>
 
@@ -144,6 +145,9 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
       summary.transfer = describeTransfer(transfer->transfer);
     if (const auto rtt = products.get<RttProduct>("rtt"); rtt && rtt->rtt)
       summary.rtt = describeRtt(*rtt, products.get<PatchProduct>("patch").get());
+    if (const auto laid = products.get<SynthesisProduct>("synthesis"); laid && laid->meso)
+      summary.synthesis = {laid->meso->vertexCount(), laid->patchWidth, laid->quality.distance,
+                           laid->quality.coherence, laid->quality.longestRepeat};
     if (const auto atlas = products.get<AtlasProduct>("atlas")) {
       const AtlasFacts& f = atlas->facts;
       summary.atlas = {f.charts, f.l2, f.lInf, f.seam, f.filled};
@@ -185,6 +189,12 @@ nlohmann::json toJson(const BakeSummary& s) {
     json["rtt"]["view_error_between"] = s.rtt->viewError->between;
     json["rtt"]["view_error_beyond"] = s.rtt->viewError->beyond;
   }
+  if (s.synthesis)
+    json["synthesis"] = {{"vertices", s.synthesis->vertices},
+                         {"patch_width", s.synthesis->patchWidth},
+                         {"distance", s.synthesis->distance},
+                         {"coherence", s.synthesis->coherence},
+                         {"longest_repeat", s.synthesis->longestRepeat}};
   if (s.atlas)
     json["atlas"] = {{"charts", s.atlas->charts},
                      {"stretch_l2", s.atlas->l2},

@@ -53,6 +53,11 @@ struct BakeSummary {
     double l2 = 0, lInf = 0, seam = 0, filled = 0;  ///< see AtlasFacts
   };
   std::optional<AtlasText> atlas;  ///< when it was made or found
+  struct SynthesisFacts {
+    std::size_t vertices = 0;                                               ///< of the meso mesh
+    double patchWidth = 0, distance = 0, coherence = 0, longestRepeat = 0;  ///< see SynthesisQuality
+  };
+  std::optional<SynthesisFacts> synthesis;  ///< when a patch was laid over the surface
   std::optional<InterpolationFloor> floor;
   struct RttFacts {
     int texels = 0, views = 0, bands = 0, channels = 0, bounces = 0;

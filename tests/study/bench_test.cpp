@@ -30,7 +30,7 @@ TEST_P(EveryBench, GivesAResult) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bench, EveryBench, testing::ValuesIn(benches()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& bench) { return bench.param.name; });
 
 TEST(Bench, ThePipelineEndsInALitFrame) {
   Recipe recipe = pipelineBenchRecipe("builtin:vase");
