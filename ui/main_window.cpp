@@ -199,8 +199,9 @@ void MainWindow::makeDocks() {
   strip_->addStep(tr("Mesh"), tr("The objects, read and repaired."), stage({"mesh"}), bring(scene));
   strip_->addStep(
       tr("Charts"), tr("The surface cut into charts, laid flat and packed."),
-      [this] {
+      [this, baked = stage({"charts", "atlas"})] {
         const ChartNumbers n = session_.charts().numbers();
+        if (n.charts == 0 && session_.document().recipe().method.name == "biscale") return baked();
         if (n.charts == 0) return ProductStatus::Missing;
         if (n.notDisks + n.overlaps > 0 || !session_.charts().problems().isEmpty())
           return ProductStatus::Failed;
