@@ -14,7 +14,7 @@ Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& l
   Scene scene = withMaterials(*baked.geometry->scene, recipe);
   if (shadeMethod(recipe.method.name) == ShadeMethod::Diffuse)
     for (Material& material : scene.materials) material.model = MaterialModel::Lambert;
-  renderer.setScene(scene, baked.samples->samples->back);
+  renderer.setScene(scene, *baked.samples->samples);
   const Transfer& transfer = baked.transfer->transfer;
   const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
   renderer.setLight(surfaceLight(transfer, light, *baked.samples->samples));

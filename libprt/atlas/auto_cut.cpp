@@ -41,7 +41,7 @@ class CoarseGuess {
               const ClusterMerge& merge)
       : surface_(surface), clusters_(clusters), complex_(complex), merge_(merge) {}
 
-  std::vector<DVec2> operator()(const Chart& chart, const FlatChart& flat) const {
+  std::vector<DVec2> operator()(const Chart& chart, const FlatChart& flat, Job& job) const {
     // Triangles may have come over from a neighbour when seams were drawn tight: most of the area decides.
     std::map<std::uint32_t, double> areas;
     for (std::uint32_t f : chart.faces) areas[coarseChart(f)] += surface_.area(f);
@@ -51,7 +51,9 @@ class CoarseGuess {
     const std::size_t n = flat.positions.size();
     std::vector<DVec2> guess(n, DVec2(0));
     std::vector<double> weight(n, 0.0);
+    constexpr std::size_t kOften = 1024;  // some milliseconds
     for (std::size_t t = 0; t < chart.faces.size(); ++t) {
+      if (t % kOften == 0) job.checkCancelled();
       if (coarseChart(chart.faces[t]) != own) continue;
       for (int i = 0; i < 3; ++i) {
         const std::uint32_t v = chart.triangles[t][i];
@@ -61,7 +63,7 @@ class CoarseGuess {
     }
     for (std::size_t v = 0; v < n; ++v)
       if (weight[v] > 0) guess[v] /= weight[v];
-    spread(flat, guess, weight);
+    spread(flat, guess, weight, job);
     return guess;
   }
 
@@ -92,8 +94,10 @@ class CoarseGuess {
   }
 
   /// Vertices without a guess take the mean of neighbours that have one, ring by ring.
-  static void spread(const FlatChart& flat, std::vector<DVec2>& guess, std::vector<double>& weight) {
+  static void spread(const FlatChart& flat, std::vector<DVec2>& guess, std::vector<double>& weight,
+                     Job& job) {
     while (true) {
+      job.checkCancelled();
       std::vector<DVec2> sums(guess.size(), DVec2(0));
       std::vector<double> counts(guess.size(), 0.0);
       bool found = false;
@@ -127,12 +131,13 @@ LaidChart layChart(const Surface& surface, const Chart& chart, std::size_t numbe
                    const ChartOptions& optionsOf, const CoarseGuess* guess, double& left, Job& job) {
   LaidChart laid;
   const FlatChart flat(surface, chart, chartName(number));
+  job.checkCancelled();
   FlattenOptions options = optionsOf(number, flat);
   options.name = chartName(number);
   std::vector<DVec2> start;
   if (guess && options.boundary == ChartBoundary::Free) {
     constexpr int kRounds = 8;
-    start = asRigidAsPossible(flat, (*guess)(chart, flat), kRounds, job);
+    start = asRigidAsPossible(flat, (*guess)(chart, flat, job), kRounds, job);
     if (!untangle(flat, start, job)) start.clear();  // from Tutte's map, which takes a little longer
   }
   // How many steps it will take nobody knows: each takes an eighth of what is left of the chart's progress.

@@ -1,10 +1,8 @@
 #include "libprt/atlas/sparse_cholesky.h"
 
+#include "libprt/atlas/elimination_order.h"
 #include "libprt/atlas/surface.h"
 #include "libprt/mesh/cancel_check.h"
-
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 
@@ -57,22 +55,6 @@ inline bool invert(const Block<K>& a, Block<K>& inverse) {
   }
 }
 
-std::vector<std::uint32_t> minimumDegree(std::size_t nodes,
-                                         std::span<const std::pair<std::uint32_t, std::uint32_t>> edges) {
-  Eigen::SparseMatrix<double> pattern{Eigen::Index(nodes), Eigen::Index(nodes)};
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(2 * edges.size() + nodes);
-  for (std::size_t v = 0; v < nodes; ++v) entries.emplace_back(int(v), int(v), 1.0);
-  for (const auto& [i, j] : edges) {
-    entries.emplace_back(int(i), int(j), 1.0);
-    entries.emplace_back(int(j), int(i), 1.0);
-  }
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(pattern, permutation);
-  return {permutation.indices().data(), permutation.indices().data() + nodes};
-}
-
 }  // namespace
 
 template <int K>
@@ -81,7 +63,7 @@ SparseCholesky<K>::SparseCholesky(std::size_t nodes,
     : diagonal_(nodes), values_(edges.size()) {
   clear();
   job.checkCancelled();
-  order_ = minimumDegree(nodes, edges);
+  order_ = eliminationOrder(nodes, edges, job);
   job.checkCancelled();
   std::vector<std::uint32_t> position(nodes);
   for (std::uint32_t k = 0; k < nodes; ++k) position[order_[k]] = k;

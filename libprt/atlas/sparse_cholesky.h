@@ -1,7 +1,7 @@
 #pragma once
 // Sparse symmetric positive definite systems over the vertices of a chart, with K unknowns per vertex. The
-// factorisation is our own so that it can be cancelled at any time; the order is Eigen's approximate minimum
-// degree. Serial: charts are what runs in parallel.
+// factorisation is our own so that it can be cancelled at any time, and so is the order that is eliminated in
+// (elimination_order.h). Serial: charts are what runs in parallel.
 
 #include "libprt/core/job.h"
 

@@ -2,6 +2,7 @@
 
 #include "libprt/atlas/boundary_polygon.h"
 #include "libprt/atlas/orientation.h"
+#include "libprt/mesh/cancel_check.h"
 
 #include <algorithm>
 #include <limits>
@@ -134,10 +135,12 @@ double SymmetricDirichlet::meanEnergy(const std::vector<Rest>& rest, const std::
   return sum / (4 * restArea_);
 }
 
-void SymmetricDirichlet::ease(const std::vector<DVec2>& uv) {
+void SymmetricDirichlet::ease(const std::vector<DVec2>& uv, Job& job) {
+  CancelCheck check(job);
   eased_ = rest_;
   isEased_ = false;
   for (std::size_t t = 0; t < rest_.size(); ++t) {
+    check();
     const UVec3& c = chart_.triangles[t];
     Rest& rest = eased_[t];
     const Mat2 j = jacobian(rest.gradients, uv[c.x], uv[c.y], uv[c.z]);
@@ -160,10 +163,13 @@ void SymmetricDirichlet::ease(const std::vector<DVec2>& uv) {
   }
 }
 
-void SymmetricDirichlet::assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent) {
+void SymmetricDirichlet::assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent,
+                                  Job& job) {
   constexpr double kRootHalf = 0.70710678118654752;
+  CancelCheck check(job);
   solver_->clear();
   for (std::size_t t = 0; t < rest_.size(); ++t) {
+    check();
     const UVec3& c = chart_.triangles[t];
     const DVec2* g = eased_[t].gradients;
     const double weight = rest_[t].area / restArea_;
@@ -315,11 +321,11 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
       std::count_if(unknown_.begin(), unknown_.end(), [](std::uint32_t u) { return u != kNowhere; }));
   const double whole = energy_ >= 0 ? energy_ : energy(uv);
   energy_ = -1;
-  ease(uv);
+  ease(uv, job);
   const double before = isEased_ ? meanEnergy(eased_, uv) : whole;
   if (unknowns == 0) return whole;
   std::vector<std::array<double, 2>> solution(unknowns, {0.0, 0.0});
-  assemble(uv, solution);
+  assemble(uv, solution, job);
   std::vector<Contact> near;
   if (!fixedBoundary_) {
     double length = 0;
@@ -342,6 +348,7 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
     if (!(shift < trace)) return whole;
   }
   solver_->solve(solution);
+  job.checkCancelled();
   std::vector<DVec2> direction(uv.size(), DVec2(0));
   double decrease = 0;
   for (std::size_t v = 0; v < uv.size(); ++v)
@@ -355,6 +362,7 @@ double SymmetricDirichlet::step(std::vector<DVec2>& uv, Job& job) {
   std::vector<DVec2> next(uv.size());
   constexpr int kHalvings = 24;
   for (int i = 0; i < kHalvings; ++i, length *= 0.5) {
+    job.checkCancelled();
     for (std::size_t v = 0; v < uv.size(); ++v) next[v] = uv[v] + direction[v] * length;
     const double after = meanEnergy(eased_, next);
     const double least = before + repelled - 1e-4 * 0.25 * length * std::max(decrease, 0.0);

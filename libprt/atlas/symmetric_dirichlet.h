@@ -38,10 +38,10 @@ class SymmetricDirichlet {
   double repulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near) const;
   void assembleRepulsion(const std::vector<DVec2>& uv, const std::vector<Contact>& near,
                          std::vector<std::array<double, 2>>& descent);
-  void assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent);
+  void assemble(const std::vector<DVec2>& uv, std::vector<std::array<double, 2>>& descent, Job& job);
   /// Eases the references of triangles that are far off: of their distortion only so much is taken on in one
   /// step that Newton's model still holds (Liu et al. 2018, "Progressive parameterizations").
-  void ease(const std::vector<DVec2>& uv);
+  void ease(const std::vector<DVec2>& uv, Job& job);
   double meanEnergy(const std::vector<Rest>& rest, const std::vector<DVec2>& uv) const;
   double largestStep(const std::vector<DVec2>& uv, const std::vector<DVec2>& direction) const;
   bool boundaryIsSimple(const std::vector<DVec2>& uv) const;

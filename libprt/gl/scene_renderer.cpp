@@ -6,13 +6,13 @@
 #include "libprt/light/resample.h"
 #include "libprt/material/glossy_response.h"
 #include "libprt/shade/ground_grid.h"
-#include "libprt/transport/sample_set.h"
 
 #include <epoxy/gl.h>
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace prt::gl {
@@ -20,7 +20,8 @@ namespace prt::gl {
 namespace {
 
 constexpr unsigned kMaterialBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kRadianceBinding = 3,
-                   kBehindBinding = 4, kResponseBinding = 5, kCircleBinding = 6;
+                   kBehindBinding = 4, kResponseBinding = 5, kCircleBinding = 6, kColourBinding = 7,
+                   kTexelBinding = 8;
 constexpr int kEnvironmentUnit = 0, kManySamplesUnit = 1, kOneSampleUnit = 2, kManyDepthsUnit = 3,
               kOneDepthUnit = 4;
 constexpr int kResponseRows = 512;  // view angles in a table of responses
@@ -115,13 +116,15 @@ Vec2 passShift(int pass) {
 
 SceneRenderer::SceneRenderer()
     : irradianceProgram_(Program::fromLibrary("mesh_irradiance.vert", "mesh_irradiance.frag")),
+      texelIrradianceProgram_(
+          Program::fromLibrary("mesh_irradiance.vert", "mesh_irradiance.frag", "#define TEXELS\n")),
       backgroundProgram_(Program::fromLibrary("fullscreen.vert", "background.frag")),
       toneProgram_(Program::fromLibrary("fullscreen.vert", "tone.frag")),
       meanProgram_(Program::fromLibrary("fullscreen.vert", "mean.frag")),
       meshArray_(VertexArray::create()),
       emptyArray_(VertexArray::create()) {
   for (Buffer* buffer : {&positions_, &normals_, &front_, &behind_, &objects_, &indices_, &materialBuffer_,
-                         &radianceBuffer_, &backSamples_, &responses_, &circles_})
+                         &radianceBuffer_, &backSamples_, &responses_, &circles_, &colours_, &texels_})
     *buffer = Buffer::create();
   radianceBuffer_.upload(std::span<const Rgb>(),
                          sizeof(Vec4));  // bound even where the shader does not read it
@@ -133,27 +136,45 @@ SceneRenderer::SceneRenderer()
   toneProgram_.set("oneDepth", kOneDepthUnit);
   meanProgram_.set("sum", kOneSampleUnit);
   // The default number of bands; others are compiled when light in them is set.
-  for (const Light light : {Light::Interpolated, Light::Fetched, Light::Everywhere})
+  for (const Light light : {Light::Interpolated, Light::Fetched, Light::TexelRadiance, Light::Everywhere})
     radianceProgram(light, bands_);
   checkErrors("start of the GL renderer");
 }
 
 void SceneRenderer::setScene(const Scene& scene, std::span<const std::uint32_t> back) {
+  uploadScene(scene, back, nullptr);
+}
+
+void SceneRenderer::setScene(const Scene& scene, const SampleSet& samples) {
+  uploadScene(scene, samples.back, samples.texels.get());
+}
+
+void SceneRenderer::uploadScene(const Scene& scene, std::span<const std::uint32_t> back,
+                                const TexelGrid* texels) {
   const TriMesh& mesh = scene.mesh;
-  vertexCount_ = sampleCount_ = mesh.vertexCount();
+  if (texels && texels->triangles.size() != mesh.triangleCount())
+    throw ValueError("the texels are of another scene", "GL renderer", "bake the scene again");
+  vertexCount_ = mesh.vertexCount();
   indexCount_ = int(3 * mesh.triangleCount());
   bounds_ = mesh.bounds();
-  back_.assign(vertexCount_, kNone);
+  atTexels_ = texels != nullptr;
+  const std::size_t fronts = texels ? texels->count : vertexCount_;
+  sampleCount_ = fronts;
+  back_.assign(fronts, kNone);
   twoSided_ = !back.empty();
-  for (std::size_t v = 0; v < std::min(back.size(), vertexCount_); ++v) {
-    back_[v] = back[v];
-    if (back[v] != kNone) sampleCount_ = std::max(sampleCount_, std::size_t(back[v]) + 1);
+  for (std::size_t s = 0; s < std::min(back.size(), fronts); ++s) {
+    back_[s] = back[s];
+    if (back[s] != kNone) sampleCount_ = std::max(sampleCount_, std::size_t(back[s]) + 1);
   }
+  if (texels) uploadTexels(*texels);
   positions_.upload(std::span<const Vec3>(mesh.positions));
   normals_.upload(std::span<const Vec3>(mesh.normals));
   objects_.upload(std::span<const std::uint32_t>(scene.vertexObject));
   indices_.upload(std::span<const UVec3>(mesh.triangles));
   backSamples_.upload(std::span<const std::uint32_t>(back_));
+  const std::vector<Rgb> black(vertexCount_, Rgb(0));
+  front_.upload(std::span<const Rgb>(black));
+  behind_.upload(std::span<const Rgb>(black));
   setIrradiance(std::vector<Rgb>(sampleCount_, Rgb(0)));
   setMaterials(scene.materials);
 
@@ -164,6 +185,16 @@ void SceneRenderer::setScene(const Scene& scene, std::span<const std::uint32_t> 
   meshArray_.integers(4, objects_);
   meshArray_.indices(indices_);
   checkErrors("upload of the scene");
+}
+
+// As shaders/texels.glsl reads it.
+void SceneRenderer::uploadTexels(const TexelGrid& grid) {
+  constexpr std::size_t kWords = sizeof(TexelTriangle) / sizeof(std::uint32_t);
+  std::vector<std::uint32_t> words(kWords * grid.triangles.size());
+  std::memcpy(words.data(), grid.triangles.data(), words.size() * sizeof(std::uint32_t));
+  texelStart_ = int(words.size());
+  words.insert(words.end(), grid.texels.begin(), grid.texels.end());
+  texels_.upload(std::span<const std::uint32_t>(words));
 }
 
 void SceneRenderer::setMaterials(std::span<const Material> materials) {
@@ -188,21 +219,23 @@ void SceneRenderer::setLight(const SurfaceLight& light) {
 
 void SceneRenderer::setIrradiance(std::span<const Rgb> irradiance) {
   expectSamples(irradiance.size(), sampleCount_);
-  uploadSides(irradiance);
-  light_ = Light::Irradiance;
+  uploadColours(irradiance);
+  light_ = atTexels_ ? Light::TexelIrradiance : Light::Irradiance;
 }
 
 void SceneRenderer::setRadiance(int bands, std::span<const Rgb> coefficients, std::span<const Rgb> beyond) {
   expectSamples(coefficients.size(), sampleCount_ * std::size_t(shCount(bands)));
   if (!beyond.empty()) expectSamples(beyond.size(), sampleCount_);
-  useRadiance(!twoSided_ && fitsBetweenStages(bands) ? Light::Interpolated : Light::Fetched, bands);
+  const bool interpolated = !twoSided_ && fitsBetweenStages(bands);
+  useRadiance(atTexels_ ? Light::TexelRadiance : interpolated ? Light::Interpolated : Light::Fetched, bands);
   radianceBuffer_.upload(coefficients, sizeof(Vec4));
-  uploadSides(beyond.empty() ? std::vector<Rgb>(sampleCount_, Rgb(0))
-                             : std::vector<Rgb>(beyond.begin(), beyond.end()));
+  uploadColours(beyond.empty() ? std::vector<Rgb>(sampleCount_, Rgb(0))
+                               : std::vector<Rgb>(beyond.begin(), beyond.end()));
 }
 
-// One colour per sample as two per vertex: for its front and its back.
-void SceneRenderer::uploadSides(std::span<const Rgb> perSample) {
+// One colour per sample: as they are for texels, else two per vertex, for its front and its back.
+void SceneRenderer::uploadColours(std::span<const Rgb> perSample) {
+  if (atTexels_) return colours_.upload(perSample);
   std::vector<Rgb> behind(vertexCount_, Rgb(0));
   for (std::size_t v = 0; v < vertexCount_; ++v)
     if (back_[v] != kNone) behind[v] = perSample[back_[v]];
@@ -213,7 +246,7 @@ void SceneRenderer::uploadSides(std::span<const Rgb> perSample) {
 void SceneRenderer::setLight(const ShRgb& light) {
   useRadiance(Light::Everywhere, light.bands);
   radianceProgram(light_, bands_).set("light", std::span<const Vec3>(light.c));
-  uploadSides(std::vector<Rgb>(sampleCount_, Rgb(0)));
+  if (!atTexels_) uploadColours(std::vector<Rgb>(sampleCount_, Rgb(0)));
 }
 
 void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
@@ -241,6 +274,7 @@ Program& SceneRenderer::radianceProgram(Light light, int bands) {
   std::string prelude = shGlsl(bands) + "#define RESPONSE_ROWS " + std::to_string(kResponseRows) + "\n";
   if (light == Light::Interpolated) prelude += "#define INTERPOLATED\n";
   if (light == Light::Everywhere) prelude += "#define EVERYWHERE\n";
+  if (light == Light::TexelRadiance) prelude += "#define TEXELS\n";
   program = Program::fromLibrary("mesh_radiance.vert", "mesh_radiance.frag", prelude);
   return program;
 }
@@ -356,21 +390,34 @@ void SceneRenderer::drawRadiance(const Picture& picture, PixelFormat format, int
   if (picture.background == Background::Environment && any) drawBackground(picture);
 }
 
+Program& SceneRenderer::meshProgram() {
+  if (light_ == Light::Irradiance) return irradianceProgram_;
+  if (light_ == Light::TexelIrradiance) return texelIrradianceProgram_;
+  return radianceProgram(light_, bands_);
+}
+
 void SceneRenderer::drawMesh(const Picture& picture) {
   const Vec2 depth = depthRange(picture.camera, bounds_);
   const float aspect = float(picture.width) / float(picture.height);
-  Program& program = light_ == Light::Irradiance ? irradianceProgram_ : radianceProgram(light_, bands_);
+  Program& program = meshProgram();
   program.set("worldToClip",
               shifted(picture) * picture.camera.projection(aspect, depth.x, depth.y) * picture.camera.view());
   materialBuffer_.bindStorage(kMaterialBinding);
   if (light_ != Light::Irradiance) {
+    indices_.bindStorage(kCornerBinding);
+    positions_.bindStorage(kPositionBinding);
+    backSamples_.bindStorage(kBehindBinding);
+  }
+  if (light_ == Light::TexelIrradiance || light_ == Light::TexelRadiance) {
+    program.set("texelStart", texelStart_);
+    colours_.bindStorage(kColourBinding);
+    texels_.bindStorage(kTexelBinding);
+  }
+  if (light_ != Light::Irradiance && light_ != Light::TexelIrradiance) {
     const Camera& camera = picture.camera;
     program.set("viewer", camera.orthographic ? Vec4(camera.axes().normal, 0) : Vec4(camera.eye, 1));
     if (!lobes_.empty()) program.set("lobes", std::span<const Vec2>(lobes_));
-    indices_.bindStorage(kCornerBinding);
-    positions_.bindStorage(kPositionBinding);
     radianceBuffer_.bindStorage(kRadianceBinding);
-    backSamples_.bindStorage(kBehindBinding);
     responses_.bindStorage(kResponseBinding);
   }
   program.use();

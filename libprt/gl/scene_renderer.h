@@ -12,6 +12,7 @@
 #include "libprt/shade/camera.h"
 #include "libprt/shade/surface_light.h"
 #include "libprt/shade/tonemap.h"
+#include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
 
 #include <cstdint>
@@ -60,6 +61,9 @@ class SceneRenderer {
   /// The geometry and its materials, without light. `back` as SampleSet::back: the samples of two-sided
   /// vertices' other sides; empty when there are none.
   void setScene(const Scene& scene, std::span<const std::uint32_t> back = {});
+  /// The same for light at `samples`, which cover the surface: vertices, or texels of an atlas, between which
+  /// light is interpolated at every pixel.
+  void setScene(const Scene& scene, const SampleSet& samples);
   /// Materials alone, [objects]: takes effect in the next picture.
   void setMaterials(std::span<const Material> materials);
 
@@ -88,10 +92,13 @@ class SceneRenderer {
   Image renderToned(const Picture& picture);
 
  private:
-  enum class Light { Irradiance, Interpolated, Fetched, Everywhere };
+  enum class Light { Irradiance, TexelIrradiance, Interpolated, Fetched, TexelRadiance, Everywhere };
 
-  void uploadSides(std::span<const Rgb> perSample);
+  void uploadScene(const Scene& scene, std::span<const std::uint32_t> back, const TexelGrid* texels);
+  void uploadTexels(const TexelGrid& grid);
+  void uploadColours(std::span<const Rgb> perSample);
   void drawRadiance(const Picture& picture, PixelFormat format, int samples);
+  Program& meshProgram();
   void drawMesh(const Picture& picture);
   void drawBackground(const Picture& picture);
   void drawToned(const Picture& picture, int samples);
@@ -99,11 +106,11 @@ class SceneRenderer {
   Program& radianceProgram(Light light, int bands);
   void uploadResponses();
 
-  Program irradianceProgram_, backgroundProgram_, toneProgram_, meanProgram_;
+  Program irradianceProgram_, texelIrradianceProgram_, backgroundProgram_, toneProgram_, meanProgram_;
   std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
   VertexArray meshArray_, emptyArray_;
   Buffer positions_, normals_, front_, behind_, objects_, indices_;
-  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_, circles_;
+  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_, circles_, colours_, texels_;
   Texture environment_, noEnvironment_;
   Framebuffer radiance_, passes_;
   int passCount_ = 0;  // summed in passes_
@@ -114,6 +121,8 @@ class SceneRenderer {
   Light light_ = Light::Irradiance;
   int bands_ = 5;  // of the radiance and the responses
   bool twoSided_ = false;
+  bool atTexels_ = false;  // where light is known
+  int texelStart_ = 0;     // of the rectangles in texels_
   int indexCount_ = 0;
   std::size_t vertexCount_ = 0, sampleCount_ = 0;
   Box3 bounds_;

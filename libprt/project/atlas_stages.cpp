@@ -2,6 +2,7 @@
 
 #include "libprt/atlas/geometry_image.h"
 #include "libprt/core/error.h"
+#include "libprt/core/log.h"
 #include "libprt/project/hand_cuts.h"
 #include "libprt/project/products.h"
 
@@ -110,10 +111,18 @@ ProductPtr makeChartsStage(StageRun& run) {
   FlatCharts charts = autoCut(surface, costs, options, run.job());
   const bool corners =
       std::any_of(settings.begin(), settings.end(), [](const ChartSettings& c) { return c.hasCorners(); });
-  if (corners || recipe.charts.boundary == ChartsBoundary::Polygon)
+  const bool again = corners || recipe.charts.boundary == ChartsBoundary::Polygon;
+  if (again)
     charts = flattenCharts(surface, charts.seams, flattenOptionsOf(recipe.charts), settings, run.job());
   product->charts = std::make_shared<FlatCharts>(std::move(charts));
+  // They were cut for free boundaries: on polygons the same charts may stretch more.
+  if (const std::string note = stretchNote(recipe, *product); again && !note.empty()) logWarning(note);
   return product;
+}
+
+std::string stretchNote(const Recipe& recipe, const ChartsProduct& product) {
+  if (recipe.charts.mode != ChartsMode::Auto || !product.charts) return {};
+  return boundMissed(*product.charts, autoCutOptionsOf(recipe.charts).stretch);
 }
 
 FlattenOptions flattenOptionsOf(const ChartsRecipe& charts) {

@@ -51,6 +51,10 @@ AtlasFacts atlasFacts(const TriMesh& mesh, const Surface& surface, const Atlas& 
 AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
                        std::span<const ChartSettings> settings);
 
+/// One line that names the chart which stretches most when charts that were cut by themselves miss
+/// charts.stretch, as they may on polygons; else empty.
+std::string stretchNote(const Recipe& recipe, const ChartsProduct& product);
+
 ProductPtr makeChartsStage(StageRun& run);
 ProductPtr makeAtlasStage(StageRun& run);
 

@@ -58,7 +58,7 @@ class Timer : public PipelineListener {
 std::vector<std::string> storedStages(const Recipe& recipe) {
   std::vector<std::string> names;
   for (const Stage& stage : stages())
-    if (stage.stored && (!stage.wanted || stage.wanted(recipe))) names.push_back(stage.name);
+    if (stage.stored && isWanted(stage, recipe)) names.push_back(stage.name);
   return names;
 }
 
@@ -148,6 +148,8 @@ BakeSummary bakeProject(const RecipeSource& source, const BakeOptions& options, 
     if (const auto laid = products.get<SynthesisProduct>("synthesis"); laid && laid->meso)
       summary.synthesis = {laid->meso->vertexCount(), laid->patchWidth, laid->quality.distance,
                            laid->quality.coherence, laid->quality.longestRepeat};
+    if (const auto charts = products.get<ChartsProduct>("charts"))
+      if (const std::string note = stretchNote(recipe, *charts); !note.empty()) summary.notes.push_back(note);
     if (const auto atlas = products.get<AtlasProduct>("atlas")) {
       const AtlasFacts& f = atlas->facts;
       summary.atlas = {f.charts, f.l2, f.lInf, f.seam, f.filled};

@@ -48,7 +48,7 @@ std::vector<Vec3> vertexTangents(const TriMesh& mesh, const TangentFrames& frame
   return sums;
 }
 
-/// The first `count` rows of an array: the vertices come first among the samples.
+/// The first `count` rows of an array: vertices, or texels, come first among the samples.
 Array firstRows(Array array, std::size_t count) {
   if (array.shape[0] > 0) array.bytes.resize(array.bytes.size() / std::size_t(array.shape[0]) * count);
   array.shape[0] = std::int64_t(count);
@@ -152,6 +152,39 @@ void writeLaidPatch(const SynthesisProduct* synthesis, const IdMapProduct* idmap
   if (idmap && idmap->map) writeIdMapArray(*idmap->map, write);
 }
 
+/// Where transfer is when it is at texels, and how a point of the surface finds them.
+void writeTexels(const TriMesh& mesh, const SampleSet& samples, const Write& write) {
+  const TexelGrid& grid = *samples.texels;
+  std::vector<Vec3> at, normal;
+  for (std::size_t s = 0; s < grid.count; ++s) {
+    const UVec3& t = mesh.triangles[samples.triangle[s]];
+    const Vec2& b = samples.barycentric[s];
+    at.push_back((1 - b.x - b.y) * mesh.positions[t.x] + b.x * mesh.positions[t.y] +
+                 b.y * mesh.positions[t.z]);
+    normal.push_back(samples.shadingNormal[s]);
+  }
+  std::vector<float> places;
+  std::vector<std::int32_t> rectangles, numbers;
+  for (const TexelTriangle& t : grid.triangles) {
+    places.insert(places.end(), {t.corner.x, t.corner.y, t.edge1.x, t.edge1.y, t.edge2.x, t.edge2.y});
+    rectangles.insert(rectangles.end(), {std::int32_t(t.first), std::int32_t(t.widthHeight & 0xffffu),
+                                         std::int32_t(t.widthHeight >> 16)});
+  }
+  for (const std::uint32_t n : grid.texels) numbers.push_back(n & TexelGrid::kFar ? -1 : std::int32_t(n));
+  const auto faces = std::int64_t(grid.triangles.size());
+  write("texel_positions", rows(at), "points of the surface that the rows of transfer are of");
+  write("texel_normals", rows(normal), "their unit shading normals");
+  write("texel_places", Array::from<float>(std::span<const float>(places), {faces, 6}),
+        "per triangle, in texels of its chart: u and v of corner 0, then what leads from there to corners 1 "
+        "and 2; whole numbers are texels' centres");
+  write(
+      "texel_rectangles", Array::from<std::int32_t>(std::span<const std::int32_t>(rectangles), {faces, 3}),
+      "per triangle: where the texels of its chart begin in texel_numbers, how many in a row, how many rows");
+  write("texel_numbers",
+        Array::from<std::int32_t>(std::span<const std::int32_t>(numbers), {std::int64_t(numbers.size())}),
+        "row of transfer of each texel of each chart; -1 where no surface is near");
+}
+
 }  // namespace
 
 ExportedFiles exportParts(const ExportParts& parts, const std::filesystem::path& folder, Job& job) {
@@ -190,6 +223,7 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   const std::size_t vertices = scene.mesh.vertexCount();
   ExportManifest manifest(folder, "npy");
   manifest.set("vertices", vertices)
+      .set("transfer_where", samples.texels ? "texel" : "vertex")
       .set("samples", samples.size())
       .set("faces", scene.mesh.triangleCount())
       .set("bands", transfer.bands)
@@ -224,10 +258,11 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
   write("light", rows(light.c), "coefficients of the current lights, index l(l+1)+m");
   writeGloss(input, write);
+  if (samples.texels) writeTexels(scene.mesh, samples, write);
   if (transfer.form != TransferForm::Diffuse)
-    write("transfer", firstRows(expandedMatrices(transfer), vertices),
+    write("transfer", firstRows(expandedMatrices(transfer), samples.fronts()),
           "row = transferred incident radiance, column = light, both in the object frame");
-  write("transfer_diffuse", firstRows(whiteLambert(transfer, samples.shadingNormal), vertices),
+  write("transfer_diffuse", firstRows(whiteLambert(transfer, samples.shadingNormal), samples.fronts()),
         "exit radiance of a white Lambert surface per unit light coefficient");
   if (input.rtt) writeRtt(*input.rtt, folder, manifest);
   if (input.patch) writePatch(*input.patch, folder, manifest);

@@ -33,13 +33,31 @@ std::string fileName(std::string name) {
   return name;
 }
 
+/// Values of texels between them, at each vertex in its first triangle.
+std::vector<Rgb> atVertices(const TriMesh& mesh, const SampleSet& samples, const std::vector<Rgb>& values) {
+  std::vector<Rgb> out(mesh.vertexCount(), Rgb(0));
+  constexpr Vec2 kCorners[] = {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
+  for (std::uint32_t t = std::uint32_t(mesh.triangleCount()); t-- > 0;)
+    for (int k = 0; k < 3; ++k) {
+      SamplePlace place;
+      samples.at(mesh, t, kCorners[k], false, place);
+      Rgb& sum = out[mesh.triangles[t][k]] = Rgb(0);
+      for (std::size_t i = 0; i < 4; ++i) sum += place.weight[int(i)] * values[place.sample[i]];
+    }
+  return out;
+}
+
 /// Diffuse exit radiance at each vertex.
 std::vector<Rgb> vertexColors(const ExportInput& input, double exposure) {
   const Scene& scene = *input.baked.geometry->scene;
   const Transfer& transfer = input.baked.transfer->transfer;
   const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
-  std::vector<Rgb> colors = irradiance(transfer, light, input.baked.samples->samples->shadingNormal);
-  colors.resize(scene.mesh.vertexCount());
+  const SampleSet& samples = *input.baked.samples->samples;
+  std::vector<Rgb> colors = irradiance(transfer, light, samples.shadingNormal);
+  if (samples.texels)
+    colors = atVertices(scene.mesh, samples, colors);
+  else
+    colors.resize(scene.mesh.vertexCount());
   const float scale = float(std::exp2(exposure)) / kPiF;
   for (std::size_t v = 0; v < colors.size(); ++v)
     colors[v] = clamp(colors[v] * input.recipe.objects[scene.vertexObject[v]].material.albedo * scale, Rgb(0),

@@ -47,8 +47,9 @@ std::string keyOf(const Stage& stage, const Recipe& recipe, const std::vector<Va
   hasher.add(stage.name).add(stage.version);
   for (const Value& value : values)
     if (coversAny(stage.reads, value.pattern) && !coversAny(without, value.pattern)) hasher.add(value.text);
-  if (stage.derives) hasher.add(stage.derives(recipe));
-  for (const std::string& input : stage.inputs) hasher.add(keys.at(input));
+  if (const std::string text = stage.derives ? stage.derives(recipe) : std::string(); !text.empty())
+    hasher.add(text);
+  for (const std::string& input : stage.inputsFor(recipe)) hasher.add(keys.at(input));
   return hasher.result().hex();
 }
 
@@ -96,6 +97,7 @@ class PipelineRun {
   void finish(const Stage& stage, State state, bool made);
   void announce(const Stage& stage, State state);
   void makePreviewsAfter(const Stage& stage);
+  bool isInput(const Stage& stage, const Stage& user) const;
   bool leadsToTarget(const Stage& stage) const;
   void keepPreviews();
   ProductStore::WriteCheck writeCheck();
@@ -211,7 +213,7 @@ const ProductState& PipelineRun::need(const Stage& stage) {
   if (found && found->final()) {
     finish(stage, *found, false);
   } else {
-    for (const std::string& input : stage.inputs) need(stageNamed(table(), input));
+    for (const std::string& input : stage.inputsFor(recipe_)) need(stageNamed(table(), input));
     if (found) announce(stage, *found);
     runStage(stage);
   }
@@ -226,7 +228,7 @@ bool PipelineRun::findOrDerive(const Stage& stage) {
     return true;
   }
   if (stage.stored) return false;
-  for (const std::string& input : stage.inputs)
+  for (const std::string& input : stage.inputsFor(recipe_))
     if (!findOrDerive(stageNamed(table(), input))) return false;
   runStage(stage);
   return true;
@@ -259,20 +261,22 @@ void PipelineRun::announce(const Stage& stage, State state) {
   if (listener_) listener_->preview(stage, kept);
 }
 
+bool PipelineRun::isInput(const Stage& stage, const Stage& user) const {
+  const std::vector<std::string> inputs = user.inputsFor(recipe_);
+  return std::find(inputs.begin(), inputs.end(), stage.name) != inputs.end();
+}
+
 bool PipelineRun::leadsToTarget(const Stage& stage) const {
   if (wanted_.contains(stage.name)) return true;
-  return std::any_of(table().begin(), table().end(), [&](const Stage& user) {
-    return std::count(user.inputs.begin(), user.inputs.end(), stage.name) > 0 && leadsToTarget(user);
-  });
+  return std::any_of(table().begin(), table().end(),
+                     [&](const Stage& user) { return isInput(stage, user) && leadsToTarget(user); });
 }
 
 /// Makes previews of the stages behind `stage` that somebody asked for, as far as their inputs are there.
 void PipelineRun::makePreviewsAfter(const Stage& stage) {
   for (const Stage& user : table()) {
-    if (std::count(user.inputs.begin(), user.inputs.end(), stage.name) == 0 || !user.previews ||
-        !leadsToTarget(user))
-      continue;
-    for (const std::string& input : user.inputs)
+    if (!isInput(stage, user) || !user.previews || !leadsToTarget(user)) continue;
+    for (const std::string& input : user.inputsFor(recipe_))
       if (!states_.contains(input)) need(stageNamed(table(), input));
     Run run(*this, user, true);
     const State& input = states_.at(stage.name);

@@ -94,9 +94,12 @@ struct CameraRecipe {
 
 enum class TransferKind { Auto, None, Diffuse, Visibility, Matrix };
 enum class TransferStorage { Auto, Float, Half };
+enum class TransferWhere { Vertex, Texel };
 
 struct TransferRecipe {
   TransferKind kind = TransferKind::Auto;
+  TransferWhere where = TransferWhere::Vertex;  ///< texel: at the texels of the atlas
+  int texels = 256;                             ///< texel: along a side of the atlas
   int bands = 5;
   int rays = 4096;
   int bounces = 3;

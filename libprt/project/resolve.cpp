@@ -29,6 +29,8 @@ void resolveTransfer(const Recipe& recipe, TransferRecipe& transfer) {
     transfer.bounces = 0;
     transfer.bands = bands;
   }
+  if (showsPatch(recipe)) transfer.where = TransferWhere::Vertex;  // the patch is lit at vertices
+  if (transfer.where == TransferWhere::Vertex) transfer.texels = TransferRecipe{}.texels;
   if (transfer.kind == TransferKind::Visibility) transfer.bounces = 0;
   if (transfer.bounces == 0) transfer.threshold = TransferRecipe{}.threshold;
   if (transfer.storage == TransferStorage::Auto)
@@ -113,6 +115,11 @@ std::vector<std::string> contradictions(const Recipe& recipe) {
     lines.push_back("transfer.kind=visibility holds shadows only: the " + std::to_string(t.bounces) +
                     " bounces of transfer.bounces are left out; use matrix or auto to have them, or set "
                     "transfer.bounces=0");
+  if (t.where == TransferWhere::Texel && showsPatch(recipe))
+    lines.push_back(
+        "method.name=biscale lights the patch by transfer at the vertices: transfer.where=texel is left out; "
+        "use "
+        "another method to have it");
   if (t.kind == TransferKind::Diffuse && anyGlossy(recipe))
     lines.push_back(
         "transfer.kind=diffuse shows no highlights: glossy materials are drawn without their specular part; "

@@ -14,6 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <atomic>
 
 namespace prt {
@@ -34,6 +35,15 @@ bool grownPatch(const Recipe& recipe) {
   return showsPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Synthesis;
 }
 
+bool bakesAtTexels(const Recipe& recipe) {
+  return recipe.transfer.where == TransferWhere::Texel;
+}
+
+/// How many texels, where transfer is at texels.
+std::string texelsText(const Recipe& recipe) {
+  return bakesAtTexels(recipe) ? std::to_string(recipe.transfer.texels) + " texels" : std::string();
+}
+
 /// The pipeline. A stage reads its inputs and the parts of the recipe that stand in its line, nothing else.
 std::vector<Stage> makeStages() {
   return {
@@ -49,9 +59,29 @@ std::vector<Stage> makeStages() {
        .reads = {"objects[].visible", "objects[].transform", "objects[].material.twoSided"},
        .stored = false,
        .make = makeScene},
-      {.name = "samples",
-       .makes = "the points that transfer is computed at: the vertices",
+      {.name = "charts",
+       .makes = "the surface cut into disks, each laid flat",
+       .version = 2,
        .inputs = {"scene"},
+       .reads = {"objects[].seams", "charts"},
+       .derives = cornersText,
+       .wanted = grownPatch,
+       .previews = false,
+       .make = makeChartsStage,
+       .load = ChartsProduct::load},
+      {.name = "atlas",
+       .makes = "all charts side by side in one square",
+       .inputs = {"scene", "charts"},
+       .reads = {"objects[].charts", "atlas"},
+       .wanted = grownPatch,
+       .previews = false,
+       .make = makeAtlasStage,
+       .load = AtlasProduct::load},
+      {.name = "samples",
+       .makes = "the points that transfer is computed at: vertices, or texels of the atlas",
+       .inputs = {"scene", "atlas"},
+       .onlyFor = {{"atlas", bakesAtTexels}},
+       .derives = texelsText,
        .stored = false,
        .make = makeSamples},
       {.name = "field",
@@ -95,23 +125,6 @@ std::vector<Stage> makeStages() {
        .previews = false,
        .make = makeFloor,
        .load = FloorProduct::load},
-      {.name = "charts",
-       .makes = "the surface cut into disks, each laid flat",
-       .inputs = {"mesh", "scene"},
-       .reads = {"objects[].seams", "charts"},
-       .derives = cornersText,
-       .wanted = grownPatch,
-       .previews = false,
-       .make = makeChartsStage,
-       .load = ChartsProduct::load},
-      {.name = "atlas",
-       .makes = "all charts side by side in one square",
-       .inputs = {"scene", "charts"},
-       .reads = {"objects[].charts", "atlas"},
-       .wanted = grownPatch,
-       .previews = false,
-       .make = makeAtlasStage,
-       .load = AtlasProduct::load},
       {.name = "patch",
        .makes = "one period of the surface's fine structure",
        .reads = {"patch"},
@@ -193,7 +206,12 @@ ProductPtr makeScene(StageRun& run) {
 }
 
 ProductPtr makeSamples(StageRun& run) {
-  return std::make_shared<SamplesProduct>(samplesAtVertices(*run.input<SceneProduct>("scene")->scene));
+  const Scene& scene = *run.input<SceneProduct>("scene")->scene;
+  if (!bakesAtTexels(run.recipe()))
+    return std::make_shared<SamplesProduct>(samplesAtVertices(scene, &run.job()));
+  const Atlas& atlas = *run.input<AtlasProduct>("atlas")->atlas;
+  return std::make_shared<SamplesProduct>(
+      samplesAtTexels(scene, makeChartTexels(atlas, run.recipe().transfer.texels, run.job()), run.job()));
 }
 
 ProductPtr makeFrames(StageRun& run) {
@@ -297,6 +315,24 @@ ProductPtr makeFloor(StageRun& run) {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> table = makeStages();
   return table;
+}
+
+std::vector<std::string> Stage::inputsFor(const Recipe& recipe) const {
+  std::vector<std::string> needed;
+  for (const std::string& input : inputs) {
+    const auto only = onlyFor.find(input);
+    if (only == onlyFor.end() || only->second(recipe)) needed.push_back(input);
+  }
+  return needed;
+}
+
+bool isWanted(const Stage& stage, const Recipe& recipe) {
+  if (!stage.wanted || stage.wanted(recipe)) return true;
+  return std::any_of(stages().begin(), stages().end(), [&](const Stage& user) {
+    if (!user.wanted && !user.onlyFor.contains(stage.name)) return false;
+    const std::vector<std::string> inputs = user.inputsFor(recipe);
+    return std::find(inputs.begin(), inputs.end(), stage.name) != inputs.end() && isWanted(user, recipe);
+  });
 }
 
 std::vector<std::string> stageNames() {

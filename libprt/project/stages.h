@@ -7,9 +7,8 @@
 //   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
 //                  ├─> rays ────┘                       ├─> relight
 //            (field) ─> frames ─────────────────────────┘
-//   scene ─> charts ─> atlas ────────────────────────┬─> idmap
-//   scene ─> field ─> frames ─┬─> synthesis ─────────┘
-//   patch ─> rtt ─────────────┘
+//   scene ─> charts ─> atlas ────────────────────────┬─> idmap   (atlas ─> samples, where transfer is at
+//   texels) scene ─> field ─> frames ─┬─> synthesis ─────────┘ patch ─> rtt ─────────────┘
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
@@ -17,6 +16,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,11 +64,14 @@ struct Stage {
   std::string makes;                     ///< one line for people
   int version = 1;                       ///< raised when the same inputs give another product
   std::vector<std::string> inputs = {};  ///< stages
+  /// For inputs that only some recipes need: which. Others are always needed.
+  std::map<std::string, std::function<bool(const Recipe&)>> onlyFor = {};
   /// Recipe paths, or sections meaning all paths in them: "objects[].mesh", "transfer.bands".
   std::vector<std::string> reads = {};
   /// Of `reads`, those of which more only extends the work: a checkpoint serves any value of them.
   std::vector<std::string> extends = {};
   /// Further text for the key, worked out from the recipe: when only a consequence of settings matters.
+  /// Empty: none.
   std::function<std::string(const Recipe&)> derives = {};
   /// Whether a bake of everything makes it; absent: always.
   std::function<bool(const Recipe&)> wanted = {};
@@ -76,10 +79,16 @@ struct Stage {
   bool previews = true;  ///< quick enough to be run on every preview of its inputs
   std::function<ProductPtr(StageRun&)> make = {};
   std::function<ProductPtr(ProductData)> load = {};  ///< throws FileError when the data cannot be right
+
+  /// The inputs that a recipe needs.
+  std::vector<std::string> inputsFor(const Recipe& recipe) const;
 };
 
 /// The pipeline, inputs before users.
 const std::vector<Stage>& stages();
+
+/// Whether a bake of everything makes the stage's product, be it for another stage.
+bool isWanted(const Stage& stage, const Recipe& recipe);
 
 /// Names of all stages; for --stage.
 std::vector<std::string> stageNames();

@@ -10,11 +10,11 @@
 namespace prt {
 namespace {
 
-void addFragments(const LiveTile& tile, const LiveLight& light, const LiveMaterials& materials,
+void addFragments(const LiveTile& tile, int around, const LiveLight& light, const LiveMaterials& materials,
                   const DisplayTable& display, LiveSums& sums) {
   std::array<Rgb, kLiveLanes> radiance;
   for (std::size_t first = 0; first < tile.count; first += kLiveLanes) {
-    shadeLive(tile, first, light, materials, radiance);
+    shadeLive(tile, around, first, light, materials, radiance);
     const std::size_t lanes = std::min(kLiveLanes, tile.count - first);
     for (std::size_t lane = 0; lane < lanes; ++lane)
       sums.add(tile.pixel[first + lane], tile.share[first + lane], radiance[lane], display);
@@ -57,11 +57,11 @@ void LiveRenderer::followView(const LiveScene& scene, const LivePicture& picture
   } else {
     if (scene.materials.size() != scene.scene->materials.size())
       throw ValueError("not as many materials as objects", "renderer", "give one for each object");
-    const std::span<const std::uint32_t> back = scene.samples
-                                                    ? std::span<const std::uint32_t>(scene.samples->back)
-                                                    : std::span<const std::uint32_t>();
-    view_ = makeLiveView(*scene.scene, back, key.twoSided, picture.camera, picture.width, picture.height,
-                         picture.grid, job);
+    if (scene.samples && scene.samples->texels &&
+        scene.samples->texels->triangles.size() != scene.scene->mesh.triangleCount())
+      throw ValueError("transfer was baked for another scene", "renderer", "bake the scene again");
+    view_ = makeLiveView(*scene.scene, scene.samples.get(), key.twoSided, picture.camera, picture.width,
+                         picture.height, picture.grid, job);
   }
   viewKey_ = std::move(key);
 }
@@ -127,7 +127,7 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
     });
   else
     drawTiles(view_.tiles, [&](const LiveTile& tile, LiveSums& sums) {
-      addFragments(tile, light_, materials_, *display_, sums);
+      addFragments(tile, view_.around, light_, materials_, *display_, sums);
     });
 }
 

@@ -136,8 +136,17 @@ float sound(float v) {
   return v > 0 ? std::min(v, 3e38f) : 0.0f;
 }  // NaN gives 0
 
+/// What the surface reflects apart from its radiance, between the samples around a fragment.
+Rgb reflectedAt(const LiveTile& tile, std::size_t fragment, int around, const LiveLight& light) {
+  const auto& slot = tile.slot[fragment];
+  const Vec4& w = tile.weight[fragment];
+  Rgb sum = w.x * light.reflected(slot[0]) + w.y * light.reflected(slot[1]) + w.z * light.reflected(slot[2]);
+  if (around == 4) sum += w.w * light.reflected(slot[3]);
+  return sum;
+}
+
 template <int Bands>
-void shadeBands(const LiveTile& tile, std::size_t first, const LiveLight& light,
+void shadeBands(const LiveTile& tile, int around, std::size_t first, const LiveLight& light,
                 const LiveMaterials& materials, std::array<Rgb, kLiveLanes>& radiance) {
   constexpr std::size_t padded = paddedCount(Bands);
   float diffuse[kLiveLanes][kMaxPadded], glossy[kLiveLanes][kMaxPadded];
@@ -155,36 +164,33 @@ void shadeBands(const LiveTile& tile, std::size_t first, const LiveLight& light,
     gloss<Bands>(tile, first, filled, materials.lobes(), glossy);
   }
   for (std::size_t lane = 0; lane < kLiveLanes; ++lane) {
-    const auto& corner = tile.slot[first + lane];
-    const Vec3& w = tile.weight[first + lane];
-    const float *x0 = light.radiance(corner[0]), *x1 = light.radiance(corner[1]),
-                *x2 = light.radiance(corner[2]);
+    const auto& slot = tile.slot[first + lane];
+    const Vec4& w = tile.weight[first + lane];
+    const float *x0 = light.radiance(slot[0]), *x1 = light.radiance(slot[1]), *x2 = light.radiance(slot[2]),
+                *x3 = light.radiance(slot[3]);
     const LiveMaterials::Row& material = materials[tile.object[first + lane]];
     Lanes dots[3]{}, shine[3]{};
     for (std::size_t k = 0; k < padded; k += kLiveLanes) {
       const Lanes r = load(diffuse[lane] + k), g = table[lane] ? load(glossy[lane] + k) : Lanes{};
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t at = c * padded + k;
-        const Lanes x = w.x * load(x0 + at) + w.y * load(x1 + at) + w.z * load(x2 + at);
+        Lanes x = w.x * load(x0 + at) + w.y * load(x1 + at) + w.z * load(x2 + at);
+        if (around == 4) x += w.w * load(x3 + at);
         dots[c] += r * x;
         shine[c] += g * x;
       }
     }
-    const Rgb beyond = w.x * light.reflected(corner[0]) + w.y * light.reflected(corner[1]) +
-                       w.z * light.reflected(corner[2]);
+    const Rgb beyond = reflectedAt(tile, first + lane, around, light);
     for (int c = 0; c < 3; ++c)
       radiance[lane][c] = sound(material.albedo[c] * beyond[c] +
                                 sum(material.albedo[c] * dots[c] + material.specular[c] * shine[c]));
   }
 }
 
-void shadeDiffuse(const LiveTile& tile, std::size_t first, const LiveLight& light,
+void shadeDiffuse(const LiveTile& tile, int around, std::size_t first, const LiveLight& light,
                   const LiveMaterials& materials, std::array<Rgb, kLiveLanes>& radiance) {
   for (std::size_t lane = 0; lane < kLiveLanes; ++lane) {
-    const auto& corner = tile.slot[first + lane];
-    const Vec3& w = tile.weight[first + lane];
-    const Rgb white = w.x * light.reflected(corner[0]) + w.y * light.reflected(corner[1]) +
-                      w.z * light.reflected(corner[2]);
+    const Rgb white = reflectedAt(tile, first + lane, around, light);
     const Rgb exit = materials[tile.object[first + lane]].albedo * white;
     radiance[lane] = {sound(exit.x), sound(exit.y), sound(exit.z)};
   }
@@ -238,30 +244,31 @@ const LiveMaterials::Table& LiveMaterials::tableOf(float exponent, int bands) {
   return tables_.emplace_back(std::move(table));
 }
 
-void shadeLive(const LiveTile& tile, std::size_t first, const LiveLight& light,
+void shadeLive(const LiveTile& tile, int around, std::size_t first, const LiveLight& light,
                const LiveMaterials& materials, std::array<Rgb, kLiveLanes>& radiance) {
-  if (light.form() == TransferForm::Diffuse) return shadeDiffuse(tile, first, light, materials, radiance);
+  if (light.form() == TransferForm::Diffuse)
+    return shadeDiffuse(tile, around, first, light, materials, radiance);
   switch (light.bands()) {
     case 1:
-      return shadeBands<1>(tile, first, light, materials, radiance);
+      return shadeBands<1>(tile, around, first, light, materials, radiance);
     case 2:
-      return shadeBands<2>(tile, first, light, materials, radiance);
+      return shadeBands<2>(tile, around, first, light, materials, radiance);
     case 3:
-      return shadeBands<3>(tile, first, light, materials, radiance);
+      return shadeBands<3>(tile, around, first, light, materials, radiance);
     case 4:
-      return shadeBands<4>(tile, first, light, materials, radiance);
+      return shadeBands<4>(tile, around, first, light, materials, radiance);
     case 5:
-      return shadeBands<5>(tile, first, light, materials, radiance);
+      return shadeBands<5>(tile, around, first, light, materials, radiance);
     case 6:
-      return shadeBands<6>(tile, first, light, materials, radiance);
+      return shadeBands<6>(tile, around, first, light, materials, radiance);
     case 7:
-      return shadeBands<7>(tile, first, light, materials, radiance);
+      return shadeBands<7>(tile, around, first, light, materials, radiance);
     case 8:
-      return shadeBands<8>(tile, first, light, materials, radiance);
+      return shadeBands<8>(tile, around, first, light, materials, radiance);
     case 9:
-      return shadeBands<9>(tile, first, light, materials, radiance);
+      return shadeBands<9>(tile, around, first, light, materials, radiance);
     default:
-      return shadeBands<10>(tile, first, light, materials, radiance);
+      return shadeBands<10>(tile, around, first, light, materials, radiance);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Exit radiance of the fragments of a LiveView, eight at a time. The same as render.h in other words:
-// transferred radiance interpolated over the triangle meets the response of the material at the pixel.
+// transferred radiance interpolated over the surface meets the response of the material at the pixel.
 
 #include "libprt/material/glossy_response.h"
 #include "libprt/material/material.h"
@@ -68,8 +68,9 @@ class LiveMaterials {
   std::vector<Vec2> lobes_;
 };
 
-/// Linear radiance of fragments first .. first + kLiveLanes - 1, not below zero, never NaN.
-void shadeLive(const LiveTile& tile, std::size_t first, const LiveLight& light,
+/// Linear radiance of fragments first .. first + kLiveLanes - 1, not below zero, never NaN. `around` as
+/// LiveView::around.
+void shadeLive(const LiveTile& tile, int around, std::size_t first, const LiveLight& light,
                const LiveMaterials& materials, std::array<Rgb, kLiveLanes>& radiance);
 
 }  // namespace prt

@@ -10,27 +10,17 @@ namespace {
 
 struct Maker {
   const Scene& scene;
-  std::span<const std::uint32_t> back;
+  const SampleSet& surface;
   const std::vector<bool>& twoSided;
   const Camera& camera;
   Vec3 parallelView;
   std::vector<std::uint8_t> used;  // [S]
 
-  /// The samples at a fragment's corners; false when nothing is reflected there.
-  bool samplesOf(const Fragment& f, std::array<std::uint32_t, 3>& samples) const {
-    if (f.back && !twoSided[scene.triangleObject[f.triangle]]) return false;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = scene.mesh.triangles[f.triangle][int(i)];
-      samples[i] = !f.back ? v : v < back.size() ? back[v] : kNone;
-      if (samples[i] == kNone) return false;
-    }
-    return true;
-  }
-
   void add(const Fragment& f, std::uint32_t pixel, float share, LiveTile& tile) {
-    std::array<std::uint32_t, 3> samples{};
-    if (!samplesOf(f, samples)) return;
-    for (const std::uint32_t s : samples) std::atomic_ref(used[s]).store(1, std::memory_order_relaxed);
+    if (f.back && !twoSided[scene.triangleObject[f.triangle]]) return;
+    SamplePlace place;
+    if (!surface.at(scene.mesh, f.triangle, f.barycentric, f.back, place)) return;
+    for (const std::uint32_t s : place.sample) std::atomic_ref(used[s]).store(1, std::memory_order_relaxed);
     const UVec3& t = scene.mesh.triangles[f.triangle];
     const Vec3 w(1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y);
     const auto mean = [&](const std::vector<Vec3>& values) {
@@ -39,8 +29,8 @@ struct Maker {
     tile.pixel.push_back(pixel);
     tile.share.push_back(share);
     tile.object.push_back(scene.triangleObject[f.triangle]);
-    tile.slot.push_back(samples);
-    tile.weight.push_back(w);
+    tile.slot.push_back(place.sample);
+    tile.weight.push_back(place.weight);
     const Vec3 normal = normalOf(f, mean(scene.mesh.normals));
     const Vec3 view = camera.orthographic ? parallelView : camera.towardsViewer(mean(scene.mesh.positions));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -91,16 +81,19 @@ struct Maker {
 
 }  // namespace
 
-LiveView makeLiveView(const Scene& scene, std::span<const std::uint32_t> back,
-                      const std::vector<bool>& twoSided, const Camera& camera, int width, int height,
-                      int grid, Job& job) {
-  std::size_t sampleCount = scene.mesh.vertexCount();
-  for (const std::uint32_t s : back)
+LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::vector<bool>& twoSided,
+                      const Camera& camera, int width, int height, int grid, Job& job) {
+  const SampleSet none;
+  const SampleSet& surface = covering ? *covering : none;
+  std::size_t sampleCount = surface.texels ? surface.texels->count : scene.mesh.vertexCount();
+  for (const std::uint32_t s : surface.back)
     if (s != kNone) sampleCount = std::max(sampleCount, std::size_t(s) + 1);
-  Maker maker{scene, back, twoSided, camera, camera.axes().normal, std::vector<std::uint8_t>(sampleCount, 0)};
+  Maker maker{
+      scene, surface, twoSided, camera, camera.axes().normal, std::vector<std::uint8_t>(sampleCount, 0)};
 
   const Rasterizer rasterizer(scene.mesh, camera, width, height, grid, job);
   LiveView view;
+  view.around = surface.around();
   view.tiles.resize(rasterizer.tileCount());
   const float part = 1.0f / float(grid * grid);
   parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {

@@ -22,8 +22,8 @@ struct LiveTile : PixelTile {
   std::vector<std::uint32_t> pixel;  ///< row * width + column
   std::vector<float> share;          ///< of the pixel
   std::vector<std::uint32_t> object;
-  std::vector<std::array<std::uint32_t, 3>> slot;  ///< of the triangle's samples in LiveView::samples
-  std::vector<Vec3> weight;                        ///< and their weights
+  std::vector<std::array<std::uint32_t, 4>> slot;  ///< of the samples around, in LiveView::samples
+  std::vector<Vec4> weight;                        ///< and their weights
   std::array<std::vector<float>, 3> normal, view;  ///< unit, on the side that is seen; towards the viewer
 };
 
@@ -31,13 +31,13 @@ inline constexpr std::size_t kLiveLanes = 8;
 
 struct LiveView {
   std::vector<LiveTile> tiles;
+  int around = 3;                      ///< samples that weigh something; the fourth of 3 weighs nothing
   std::vector<std::uint32_t> samples;  ///< those that anything seen needs, ascending
 };
 
-/// `back` as SampleSet::back; `twoSided` [objects] tells which reflect on their back sides. grid x grid
-/// samples a pixel.
-LiveView makeLiveView(const Scene& scene, std::span<const std::uint32_t> back,
-                      const std::vector<bool>& twoSided, const Camera& camera, int width, int height,
-                      int grid, Job& job);
+/// `covering`: samples that cover the scene's surface; null: its vertices, no backs. `twoSided` [objects]
+/// tells which reflect on their back sides. grid x grid samples a pixel.
+LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::vector<bool>& twoSided,
+                      const Camera& camera, int width, int height, int grid, Job& job);
 
 }  // namespace prt

@@ -19,10 +19,11 @@ namespace {
 
 constexpr int kMaxFunctions = kMaxResponseBands * kMaxResponseBands;
 
-/// What a fragment shows: three samples with weights, and the side that is seen.
+/// What a fragment shows: samples with weights, its place in the triangle, and the side that is seen.
 struct Surface {
-  std::array<std::uint32_t, 3> sample{};
-  Vec3 weight{0};
+  SamplePlace place;
+  int around = 3;  // samples that weigh something
+  Vec3 weight{0};  // of the triangle's corners
   UVec3 vertex{0};
   float side = 1;
   const Material* material = nullptr;  // null: nothing is reflected from here
@@ -35,12 +36,8 @@ Surface surfaceOf(const RenderInput& input, const Fragment& f) {
   s.vertex = input.scene.mesh.triangles[f.triangle];
   s.weight = {1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y};
   s.side = f.back ? -1.0f : 1.0f;
-  const std::vector<std::uint32_t>& back = input.samples.back;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t v = s.vertex[int(i)];
-    s.sample[i] = !f.back ? v : v < back.size() ? back[v] : kNone;
-    if (s.sample[i] == kNone) return s;
-  }
+  s.around = input.samples.around();
+  if (!input.samples.at(input.scene.mesh, f.triangle, f.barycentric, f.back, s.place)) return s;
   s.material = &material;
   return s;
 }
@@ -70,7 +67,7 @@ Needed neededSamples(const RenderInput& input, const FragmentImage& view, Job& j
     for (const Fragment& f : view.tiles[tile].fragments) {
       const Surface s = surfaceOf(input, f);
       if (!s.material) continue;
-      for (const std::uint32_t sample : s.sample)
+      for (const std::uint32_t sample : s.place.sample)
         std::atomic_ref(used[sample]).store(1, std::memory_order_relaxed);
     }
   });
@@ -84,15 +81,16 @@ Needed neededSamples(const RenderInput& input, const FragmentImage& view, Job& j
   return needed;
 }
 
-/// Interpolates irradiance of the vertices.
-struct VertexIrradiance {
+/// Interpolates irradiance of the samples.
+struct SampleIrradiance {
   const RenderInput& input;
   const Needed& needed;
   std::vector<Rgb> irradiance;  // by slot
 
   Rgb operator()(const Fragment&, const Surface& s) const {
     Rgb e(0);
-    for (std::size_t i = 0; i < 3; ++i) e += s.weight[int(i)] * irradiance[needed.slot[s.sample[i]]];
+    for (int i = 0; i < s.around; ++i)
+      e += s.place.weight[i] * irradiance[needed.slot[s.place.sample[std::size_t(i)]]];
     return s.material->albedo * e * (1 / kPiF);
   }
 };
@@ -110,18 +108,19 @@ struct PixelResponse {
   std::span<const Rgb> incident(const Surface& s, std::array<Rgb, kMaxFunctions>& buffer) const {
     if (input.transfer.form == TransferForm::None) return arriving.radiance;
     const std::size_t n = std::size_t(shCount(bands));
-    const Rgb* x[3];
-    for (std::size_t i = 0; i < 3; ++i) x[i] = arriving.radiance.data() + n * needed.slot[s.sample[i]];
-    for (std::size_t k = 0; k < n; ++k)
-      buffer[k] = s.weight.x * x[0][k] + s.weight.y * x[1][k] + s.weight.z * x[2][k];
+    const Rgb* x[4];
+    for (std::size_t i = 0; i < 4; ++i) x[i] = arriving.radiance.data() + n * needed.slot[s.place.sample[i]];
+    const Vec4& w = s.place.weight;
+    for (std::size_t k = 0; k < n; ++k) buffer[k] = w.x * x[0][k] + w.y * x[1][k] + w.z * x[2][k];
+    for (std::size_t k = 0; k < n && s.around == 4; ++k) buffer[k] += w.w * x[3][k];
     return {buffer.data(), n};
   }
 
   /// See SurfaceLight::beyond: exact at the samples.
   Rgb beyond(const Surface& s) const {
     Rgb sum(0);
-    for (std::size_t i = 0; i < 3 && !arriving.beyond.empty(); ++i)
-      sum += s.weight[int(i)] * arriving.beyond[needed.slot[s.sample[i]]];
+    for (int i = 0; i < s.around && !arriving.beyond.empty(); ++i)
+      sum += s.place.weight[i] * arriving.beyond[needed.slot[s.place.sample[std::size_t(i)]]];
     return sum;
   }
 
@@ -177,8 +176,13 @@ void expectFit(const RenderInput& input) {
     throw ValueError(what, "renderer", "bake the scene again");
   };
   const std::size_t samples = input.samples.size();
-  if (samples < input.scene.mesh.vertexCount())
+  if (input.samples.texels) {
+    if (input.samples.texels->triangles.size() != input.scene.mesh.triangleCount() ||
+        samples < input.samples.texels->count)
+      refuse("the texels are of another scene");
+  } else if (samples < input.scene.mesh.vertexCount()) {
     refuse("the sample set has fewer samples than the scene has vertices");
+  }
   if (!input.irradiance.empty()) {
     if (input.irradiance.size() != samples) refuse("irradiance is not given at every sample");
     return;
@@ -221,7 +225,7 @@ Image shade(const RenderInput& input, const FragmentImage& view, const Camera& c
   const Needed needed = neededSamples(input, view, job);
   job.checkCancelled();
   if (!input.irradiance.empty() || input.transfer.form == TransferForm::Diffuse) {
-    VertexIrradiance shader{input, needed, {}};
+    SampleIrradiance shader{input, needed, {}};
     if (input.irradiance.empty())
       shader.irradiance =
           irradiance(input.transfer, input.light, input.samples.shadingNormal, needed.samples);

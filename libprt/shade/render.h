@@ -1,11 +1,12 @@
 #pragma once
 // Pictures from precomputed transfer, on the CPU: rasterised, shaded once per fragment, multi-threaded.
 //
-//   Diffuse  irradiance at the vertices, interpolated, times albedo/pi. Where the stored form keeps
+//   Diffuse  irradiance at the samples (vertices, or the texels around the place), interpolated, times
+//            albedo/pi. Where the stored form keeps
 //            radiance apart from the normal (None, Visibility, Matrix) transferred radiance is interpolated
 //            and met with the pixel's own normal; what its few bands miss of the exact irradiance at the
-//            vertices, which these forms hold too, is interpolated and added.
-//   Glossy   transferred radiance (object frame) interpolated over the triangle, dotted with the
+//            samples, which these forms hold too, is interpolated and added.
+//   Glossy   transferred radiance (object frame) interpolated over the surface, dotted with the
 //            response of the BRDF towards the viewer at the pixel (Kautz 2002;
 //            libprt/material/glossy_response.h).
 //
@@ -35,7 +36,7 @@ enum class ShadeMethod {
 /// What is seen. Everything referred to must outlive the call.
 struct RenderInput {
   const Scene& scene;
-  const SampleSet& samples;  ///< samplesAtVertices(scene)
+  const SampleSet& samples;  ///< samplesAtVertices(scene), or samplesAtTexels() of its charts
   const Transfer& transfer;  ///< over `samples`
   const ShRgb& light;        ///< bands that the transfer lacks are left out
   ShadeMethod method = ShadeMethod::Auto;

@@ -16,10 +16,12 @@ inline Float8 load8(const float* p) {
   return *reinterpret_cast<const Float8*>(p);
 }
 
-/// One hit of a block: the rows that it interpolates and their weights.
+/// One hit of a block: the rows that it interpolates and their weights; those of three vertices or four
+/// texels.
+template <std::size_t Around>
 struct HitRows {
-  std::array<const float*, 3> row;
-  std::array<float, 3> weight;
+  std::array<const float*, Around> row;
+  std::array<float, Around> weight;
 };
 
 /// Finds rows for hits, with or without the cosine in their weights.
@@ -28,14 +30,26 @@ class HitReader {
   HitReader(const Scene& scene, const SampleSet& surface, const SampleRows& leaving, bool cosine)
       : scene_(scene), surface_(surface), leaving_(leaving), cosine_(cosine) {}
 
-  HitRows at(const HitBlock& block, std::size_t i) const {
-    const std::uint32_t code = block.triangle[i], packed = block.barycentric[i];
-    const UVec3& corner = scene_.mesh.triangles[code & ~kBackHit];
+  std::size_t around() const { return std::size_t(surface_.around()); }
+
+  template <std::size_t Around>
+  HitRows<Around> at(const HitBlock& block, std::size_t i) const {
+    const std::uint32_t code = block.triangle[i], packed = block.barycentric[i], triangle = code & ~kBackHit;
     const float b1 = float(packed & 0xffffu) * (1.0f / 65535), b2 = float(packed >> 16) * (1.0f / 65535);
     const float scale = cosine_ ? block.cosine[i] : 1.0f;
-    HitRows hit{{}, {scale * (1 - b1 - b2), scale * b1, scale * b2}};
-    for (int k = 0; k < 3; ++k)
-      hit.row[std::size_t(k)] = leaving_.row(code & kBackHit ? surface_.back[corner[k]] : corner[k]);
+    HitRows<Around> hit;
+    const auto rowOf = [&](std::uint32_t front) {
+      return leaving_.row(code & kBackHit ? surface_.back[front] : front);
+    };
+    if constexpr (Around == 3) {
+      const UVec3& corner = scene_.mesh.triangles[triangle];
+      hit.weight = {scale * (1 - b1 - b2), scale * b1, scale * b2};
+      for (int k = 0; k < 3; ++k) hit.row[std::size_t(k)] = rowOf(corner[k]);
+    } else {
+      const TexelPlace place = surface_.texels->at(triangle, Vec2(b1, b2));
+      for (std::size_t k = 0; k < Around; ++k)
+        hit.weight[k] = scale * place.weight[k], hit.row[k] = rowOf(place.texel[k]);
+    }
     return hit;
   }
 
@@ -47,27 +61,36 @@ class HitReader {
 };
 
 /// sum[0 .. 8 * Vectors) += weighted rows of the hits [begin, end), one after the other.
-template <int Vectors>
+template <std::size_t Around, int Vectors>
 void addHits(const HitReader& reader, const HitBlock& block, std::size_t begin, std::size_t end,
              std::size_t column, float* sum) {
   Float8 acc[Vectors];
   for (int v = 0; v < Vectors; ++v) acc[v] = load8(sum + column + std::size_t(8 * v));
   for (std::size_t i = begin; i < end; ++i) {
-    const HitRows hit = reader.at(block, i);
-    for (std::size_t k = 0; k < 3; ++k)
+    const HitRows<Around> hit = reader.at<Around>(block, i);
+    for (std::size_t k = 0; k < Around; ++k)
       for (int v = 0; v < Vectors; ++v)
         acc[v] += hit.weight[k] * load8(hit.row[k] + column + std::size_t(8 * v));
   }
   for (int v = 0; v < Vectors; ++v) *reinterpret_cast<Float8*>(sum + column + std::size_t(8 * v)) = acc[v];
 }
 
+template <std::size_t Around>
+void addAllHits(const HitReader& reader, const HitBlock& block, std::size_t begin, std::size_t end,
+                std::size_t stride, float* sum) {
+  std::size_t column = 0;
+  for (; column + 64 <= stride; column += 64) addHits<Around, 8>(reader, block, begin, end, column, sum);
+  for (; column + 32 <= stride; column += 32) addHits<Around, 4>(reader, block, begin, end, column, sum);
+  for (; column + 16 <= stride; column += 16) addHits<Around, 2>(reader, block, begin, end, column, sum);
+  for (; column < stride; column += 8) addHits<Around, 1>(reader, block, begin, end, column, sum);
+}
+
 void addHits(const HitReader& reader, const HitBlock& block, std::size_t begin, std::size_t end,
              std::size_t stride, float* sum) {
-  std::size_t column = 0;
-  for (; column + 64 <= stride; column += 64) addHits<8>(reader, block, begin, end, column, sum);
-  for (; column + 32 <= stride; column += 32) addHits<4>(reader, block, begin, end, column, sum);
-  for (; column + 16 <= stride; column += 16) addHits<2>(reader, block, begin, end, column, sum);
-  for (; column < stride; column += 8) addHits<1>(reader, block, begin, end, column, sum);
+  if (reader.around() == 3)
+    addAllHits<3>(reader, block, begin, end, stride, sum);
+  else
+    addAllHits<4>(reader, block, begin, end, stride, sum);
 }
 
 /// The part of a sample's hits whose rays lie in [begin, end).
@@ -98,12 +121,12 @@ class OuterProducts {
     const std::size_t count = range.end - range.begin;
     if (count == 0) return;
     rows_.assign(count * rowSize(), 0.0f);
+    if (reader.around() == 3)
+      readRows<3>(reader, block, range);
+    else
+      readRows<4>(reader, block, range);
     values_.resize(functions_ * count);
     for (std::size_t i = 0; i < count; ++i) {
-      const HitRows hit = reader.at(block, range.begin + i);
-      for (std::size_t j = 0; j < width_; ++j)
-        rows_[((j / kColumns) * count + i) * kColumns + j % kColumns] =
-            hit.weight[0] * hit.row[0][j] + hit.weight[1] * hit.row[1][j] + hit.weight[2] * hit.row[2][j];
       const auto ray = std::size_t(block.ray[range.begin + i] + block.beginRay - table.begin());
       const float* y = table.functions(scramble);
       for (std::size_t k = 0; k < functions_; ++k)
@@ -117,6 +140,19 @@ class OuterProducts {
   }
 
  private:
+  template <std::size_t Around>
+  void readRows(const HitReader& reader, const HitBlock& block, HitBlock::Range range) {
+    const std::size_t count = range.end - range.begin;
+    for (std::size_t i = 0; i < count; ++i) {
+      const HitRows<Around> hit = reader.at<Around>(block, range.begin + i);
+      for (std::size_t j = 0; j < width_; ++j) {
+        float sum = 0;
+        for (std::size_t k = 0; k < Around; ++k) sum += hit.weight[k] * hit.row[k][j];
+        rows_[((j / kColumns) * count + i) * kColumns + j % kColumns] = sum;
+      }
+    }
+  }
+
   static constexpr std::size_t kColumns = RayTable::kColumns;
   std::size_t functions_;
   int blocks_;

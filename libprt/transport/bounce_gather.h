@@ -31,8 +31,8 @@ struct SampleRows {
 /// Gathers over the rays of a direct bake: remembered hits where there are, else traced again.
 class BounceGather {
  public:
-  /// Light bounces between the samples of `surface`, the scene's vertices and their backs; those of `samples`
-  /// gather, with the rays of `direct`. All must outlive this object.
+  /// Light bounces between the samples of `surface`, the scene's vertices or texels and their backs; those of
+  /// `samples` gather, with the rays of `direct`. All must outlive this object.
   BounceGather(const Scene& scene, const RayScene& rays, const SampleSet& surface, const SampleSet& samples,
                const DirectTransfer& direct, std::size_t hitMemory);
 

@@ -13,9 +13,13 @@ bool grey(const Rgb& c) {
   return c.x == c.y && c.y == c.z;
 }
 
-/// Object of each surface sample: that of its vertex.
+/// Object of each surface sample: that of its vertex or triangle.
 std::vector<std::uint32_t> objectsOf(const Scene& scene, const SampleSet& surface) {
   std::vector<std::uint32_t> object(surface.size());
+  if (surface.texels) {
+    for (std::size_t s = 0; s < object.size(); ++s) object[s] = scene.triangleObject[surface.triangle[s]];
+    return object;
+  }
   std::copy(scene.vertexObject.begin(), scene.vertexObject.end(), object.begin());
   for (std::size_t v = 0; v < surface.back.size(); ++v)
     if (surface.back[v] != kNone) object[surface.back[v]] = scene.vertexObject[v];
@@ -145,10 +149,9 @@ SampleRows leavingRadiance(const Scene& scene, const SampleSet& surface, const S
   return leaving;
 }
 
-BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, AreaMeans* means, const BuriedFill& fill,
-                                   int bounces, float stopThreshold, Job& job,
-                                   const BounceCheckpoint* checkpoint) {
+BounceResult bounceBetweenSamples(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
+                                  BounceGather& gather, AreaMeans* means, const BuriedFill& fill, int bounces,
+                                  float stopThreshold, Job& job, const BounceCheckpoint* checkpoint) {
   const BounceColours colours(scene.materials);
   Chain chain;
   BounceResult& result = chain.result;

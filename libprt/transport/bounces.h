@@ -1,5 +1,6 @@
 #pragma once
-// The chain of diffuse bounces between the vertices of a scene. Internal to transport.
+// The chain of diffuse bounces between the vertices of a scene, or the texels of its atlas. Internal to
+// transport.
 
 #include "libprt/core/job.h"
 #include "libprt/transport/area_means.h"
@@ -38,10 +39,10 @@ struct BounceResult {
 
 /// Adds bounces to the direct irradiance until `bounces` are done or one adds less than `stopThreshold` of
 /// the total (Frobenius norms). `gather` must gather at the surface set itself. Without `means` light leaves
-/// from the bare values at the vertices. `checkpoint` may be null.
-BounceResult bounceBetweenVertices(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
-                                   BounceGather& gather, AreaMeans* means, const BuriedFill& fill,
-                                   int bounces, float stopThreshold, Job& job,
-                                   const BounceCheckpoint* checkpoint = nullptr);
+/// from the bare values at the samples. `checkpoint` may be null.
+BounceResult bounceBetweenSamples(const Scene& scene, const SampleSet& surface, const DirectTransfer& direct,
+                                  BounceGather& gather, AreaMeans* means, const BuriedFill& fill, int bounces,
+                                  float stopThreshold, Job& job,
+                                  const BounceCheckpoint* checkpoint = nullptr);
 
 }  // namespace prt

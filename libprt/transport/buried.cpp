@@ -91,6 +91,36 @@ std::vector<float> edgeLengths(const TriMesh& mesh) {
   return sum;
 }
 
+/// The same of texels: those beside and above each other in a chart, in pairs of both orders.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> edgesOfTexels(const TexelGrid& grid) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    if ((a | b) & TexelGrid::kFar) return;
+    edges.emplace_back(a, b);
+    edges.emplace_back(b, a);
+  };
+  for (const TexelGrid::Rectangle& chart : grid.charts)
+    for (std::uint32_t y = 0; y < chart.height; ++y)
+      for (std::uint32_t x = 0; x < chart.width; ++x) {
+        const std::uint32_t* texel = grid.texels.data() + chart.first + std::size_t(y) * chart.width + x;
+        if (x + 1 < chart.width) join(texel[0], texel[1]);
+        if (y + 1 < chart.height) join(texel[0], texel[chart.width]);
+      }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// [texels] length of a texel's side on the surface.
+std::vector<float> texelLengths(const TriMesh& mesh, const SampleSet& samples) {
+  std::vector<float> lengths(samples.texels->count);
+  for (std::size_t s = 0; s < lengths.size(); ++s) {
+    const TexelTriangle& t = samples.texels->triangles[samples.triangle[s]];
+    const float flat = std::abs(t.edge1.x * t.edge2.y - t.edge1.y * t.edge2.x);
+    lengths[s] = flat > 0 ? std::sqrt(length(mesh.areaNormal(samples.triangle[s])) / flat) : 0;
+  }
+  return lengths;
+}
+
 /// What a closer look at a sample asks of its rays. Most samples need no more than a few.
 class CloserLook {
  public:
@@ -99,7 +129,7 @@ class CloserLook {
         samples_(samples),
         inside_(trianglesWithInside(scene)),
         anyInside_(std::find(inside_.begin(), inside_.end(), 1) != inside_.end()),
-        edges_(samples.vertices > 0 && severalObjects() ? edgeLengths(scene.mesh) : std::vector<float>()) {}
+        edges_(spacing()) {}
 
   /// Whether there is anything that could bury or cover a sample.
   bool needed() const { return anyInside_ || !edges_.empty(); }
@@ -114,6 +144,10 @@ class CloserLook {
   }
 
  private:
+  std::vector<float> spacing() const {
+    if (!samples_.coversSurface() || !severalObjects()) return {};
+    return samples_.texels ? texelLengths(scene_.mesh, samples_) : edgeLengths(scene_.mesh);
+  }
   bool severalObjects() const {
     const std::vector<std::uint32_t>& owners = scene_.triangleObject;
     return std::adjacent_find(owners.begin(), owners.end(), std::not_equal_to<>()) != owners.end();
@@ -124,7 +158,7 @@ class CloserLook {
   }
 
   bool covered(std::size_t sample, std::span<const Hit> hits) const {
-    if (edges_.empty() || sample >= samples_.vertices || samples_.triangle[sample] == kNone) return false;
+    if (sample >= edges_.size() || samples_.triangle[sample] == kNone) return false;
     const std::uint32_t own = scene_.triangleObject[samples_.triangle[sample]];
     int open = 0, close = 0;
     for (const Hit& hit : hits) {
@@ -138,7 +172,7 @@ class CloserLook {
   const SampleSet& samples_;
   std::vector<std::uint8_t> inside_;
   bool anyInside_;
-  std::vector<float> edges_;  // empty where nothing can be covered: there is one object
+  std::vector<float> edges_;  // of each front; empty where nothing can be covered: there is one object
 };
 
 }  // namespace
@@ -166,8 +200,8 @@ std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, c
 }
 
 BuriedFill::BuriedFill(const Scene& scene, const SampleSet& samples, std::span<const std::uint8_t> buried) {
-  if (std::find(buried.begin(), buried.end(), 1) == buried.end() || samples.vertices == 0) return;
-  auto edges = edgesOfVertices(scene.mesh);
+  if (std::find(buried.begin(), buried.end(), 1) == buried.end() || !samples.coversSurface()) return;
+  auto edges = samples.texels ? edgesOfTexels(*samples.texels) : edgesOfVertices(scene.mesh);
   const std::size_t fronts = edges.size();
   for (std::size_t i = 0; i < fronts && !samples.back.empty(); ++i)  // backs are neighbours of backs
     if (samples.back[edges[i].first] != kNone && samples.back[edges[i].second] != kNone)

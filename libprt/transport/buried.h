@@ -18,14 +18,14 @@ namespace prt {
 /// normal meet the back of a surface that has an inside; looks only at those with candidates[s] != 0.
 /// A connected piece of surface has an inside when it is closed or nearly so (its area vectors add up to
 /// less than a tenth of its area) and is not two-sided: under an open sheet nothing is buried.
-/// Marks also vertices that another object covers: at most an eighth is open, and more than half of the rays
-/// meet that object within the mean length of the vertex's edges.
+/// Marks also vertices and texels that another object covers: at most an eighth is open, and more than half
+/// of the rays meet that object within the mean length of the vertex's edges, or of a texel's side.
 std::vector<std::uint8_t> findBuried(const Scene& scene, const RayScene& rays, const SampleSet& samples,
                                      std::span<const std::uint8_t> candidates, std::uint64_t seed, Job& job);
 
-/// Takes the values of buried vertices from the mean of their neighbours along the mesh's edges, layer by
-/// layer from the outside in. A piece of surface that is buried as a whole keeps its own values, and so do
-/// samples that are not vertices.
+/// Takes the values of buried vertices from the mean of their neighbours along the mesh's edges, those of
+/// buried texels from their neighbours in the chart, layer by layer from the outside in. What is buried as a
+/// whole keeps its own values, and so do samples that are neither vertices nor texels.
 class BuriedFill {
  public:
   BuriedFill() = default;

@@ -174,8 +174,9 @@ ErrorProbe ErrorProbe::measure(std::shared_ptr<const Scene> scene, std::shared_p
                                const ErrorProbeOptions& options) {
   const std::size_t count = scene->mesh.vertexCount();
   if (transfer->samples != vertices.size() || vertices.vertices != count)
-    throw ValueError("the transfer is not of these vertices", "error estimate",
-                     "bake samplesAtVertices() first");
+    throw ValueError(vertices.texels ? "only transfer at the vertices can be judged"
+                                     : "the transfer is not of these vertices",
+                     "error estimate", "bake with transfer.where=vertex");
   ErrorProbe probe;
   auto found = std::make_shared<ProbedVertices>(scene);
   found->area = vertexAreas(scene->mesh);

@@ -31,43 +31,45 @@ Responses responses(const Transfer& transfer, std::span<const ShRgb> lights) {
   return all;
 }
 
-/// The corners of the points' triangles: which vertices, and which of them each point takes.
-struct Corners {
-  std::vector<std::uint32_t> vertices;              // sorted
-  std::vector<std::array<std::uint32_t, 3>> place;  // [points] indices into vertices
+/// What the points lie between: which samples, and which of them each point takes.
+struct Surroundings {
+  std::vector<std::uint32_t> samples;  // sorted
+  std::vector<SamplePlace> places;     // [points] indices into samples
 
-  Corners(const TriMesh& mesh, const SampleSet& points) {
-    for (const std::uint32_t t : points.triangle)
-      for (int k = 0; k < 3; ++k) vertices.push_back(mesh.triangles[t][k]);
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (const std::uint32_t t : points.triangle) {
-      std::array<std::uint32_t, 3> three{};
-      for (int k = 0; k < 3; ++k)
-        three[std::size_t(k)] =
-            std::uint32_t(std::ranges::lower_bound(vertices, mesh.triangles[t][k]) - vertices.begin());
-      place.push_back(three);
+  Surroundings(const TriMesh& mesh, const SampleSet& surface, const SampleSet& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      SamplePlace& place = places.emplace_back();
+      surface.at(mesh, points.triangle[i], points.barycentric[i], false, place);
+      samples.insert(samples.end(), place.sample.begin(), place.sample.end());
     }
+    std::sort(samples.begin(), samples.end());
+    samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
+    for (SamplePlace& place : places)
+      for (std::uint32_t& s : place.sample)
+        s = std::uint32_t(std::ranges::lower_bound(samples, s) - samples.begin());
   }
 };
 
-Rgb interpolate(const std::vector<Rgb>& values, const std::array<std::uint32_t, 3>& corner, const Vec2& b) {
-  return (1 - b.x - b.y) * values[corner[0]] + b.x * values[corner[1]] + b.y * values[corner[2]];
+Rgb interpolate(const std::vector<Rgb>& values, const SamplePlace& place) {
+  Rgb sum(0);
+  for (std::size_t i = 0; i < 4; ++i) sum += place.weight[int(i)] * values[place.sample[i]];
+  return sum;
 }
 
 /// Bakes sets of points independently of each other and of the product.
 class PointBaker {
  public:
   PointBaker(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,
-             const Transfer& vertices, const TransferSettings& settings, const FloorOptions& options,
-             Job& job)
+             const SampleSet& surface, const Transfer& transfer, const TransferSettings& settings,
+             const FloorOptions& options, Job& job)
       : scene_(std::move(scene)),
         rays_(std::move(rays)),
-        vertices_(vertices),
+        surface_(surface),
+        transfer_(transfer),
         settings_(settings),
         job_(job) {
     settings_.rays = std::min(settings.rays, options.maxRays);
-    settings_.bounces = vertices.bounces;
+    settings_.bounces = transfer.bounces;
     settings_.storage = DType::f32;
   }
 
@@ -83,14 +85,15 @@ class PointBaker {
     const DirectTransfer product = bake.product(job_);
     if (buried)
       *buried = {product.buried.as<std::uint8_t>().begin(), product.buried.as<std::uint8_t>().end()};
-    return finishTransfer(*scene_, *rays_, points, product, settings, TransferForm::Diffuse, job_,
-                          &vertices_);
+    return finishTransfer(*scene_, *rays_, points, product, settings, TransferForm::Diffuse, job_, &transfer_,
+                          nullptr, &surface_);
   }
 
  private:
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const RayScene> rays_;
-  const Transfer& vertices_;
+  const SampleSet& surface_;
+  const Transfer& transfer_;
   TransferSettings settings_;
   Job& job_;
 };
@@ -120,25 +123,25 @@ struct Squares {
 }  // namespace
 
 InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
-                                             std::shared_ptr<const RayScene> rays, const SampleSet& vertices,
+                                             std::shared_ptr<const RayScene> rays, const SampleSet& surface,
                                              const Transfer& transfer, const TransferSettings& settings,
                                              std::span<const ShRgb> lights, Job& job,
                                              const FloorOptions& options) {
   if (options.points < 16 || options.points > 100000 || options.maxRays < 1)
     throw ValueError("cannot measure the floor with " + std::to_string(options.points) + " points",
                      "interpolation floor", "use 16 to 100000 points and at least one ray");
-  if (transfer.samples != vertices.size() || vertices.vertices != scene->mesh.vertexCount())
-    throw ValueError("the transfer is not of these vertices", "interpolation floor",
-                     "bake samplesAtVertices() first");
+  if (transfer.samples != surface.size() || !surface.coversSurface())
+    throw ValueError("the transfer is not of these vertices or texels", "interpolation floor",
+                     "bake samplesAtVertices() or samplesAtTexels() first");
   if (transfer.form == TransferForm::None) return {};
   const std::vector<ShRgb> prior = lights.empty() ? priorLights(transfer.bands) : std::vector<ShRgb>{};
   if (lights.empty()) lights = prior;
 
-  // The truth at random points, and the vertices around them, each twice with rays of their own.
+  // The truth at random points, and the samples around them, each twice with rays of their own.
   const SampleSet points = samplesOnSurface(*scene, options.points, options.seed);
-  const Corners corners(scene->mesh, points);
-  const SampleSet cornerSamples = someSamples(vertices, corners.vertices);
-  PointBaker baker(scene, rays, transfer, settings, options, job);
+  const Surroundings around(scene->mesh, surface, points);
+  const SampleSet cornerSamples = someSamples(surface, around.samples);
+  PointBaker baker(scene, rays, surface, transfer, settings, options, job);
   std::vector<std::uint8_t> buried, buriedCorner;
   const std::array<Responses, 2> truth{responses(baker.bake(points, 0, options.seed, &buried), lights),
                                        responses(baker.bake(points, 1, options.seed), lights)};
@@ -147,17 +150,16 @@ InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
       responses(baker.bake(cornerSamples, 1, options.seed + 1), lights)};
   Responses product;
   for (const ShRgb& light : lights)
-    product.push_back(irradiance(transfer, light, vertices.shadingNormal, corners.vertices));
+    product.push_back(irradiance(transfer, light, surface.shadingNormal, around.samples));
 
   Squares squares;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& place = corners.place[i];
-    if (buried[i] || buriedCorner[place[0]] || buriedCorner[place[1]] || buriedCorner[place[2]]) continue;
+    const SamplePlace& place = around.places[i];
+    if (buried[i] || std::ranges::any_of(place.sample, [&](std::uint32_t s) { return buriedCorner[s] != 0; }))
+      continue;
     double truthHere = 0, interpolationHere = 0, productHere = 0;
     for (std::size_t light = 0; light < lights.size(); ++light) {
-      const auto between = [&](const std::vector<Rgb>& values) {
-        return interpolate(values, place, points.barycentric[i]);
-      };
+      const auto between = [&](const std::vector<Rgb>& values) { return interpolate(values, place); };
       const Rgb r0 = truth[0][light][i], r1 = truth[1][light][i];
       truthHere += dot(DVec3(r0), DVec3(r1));
       interpolationHere += dot(DVec3(between(corner[0][light]) - r0), DVec3(between(corner[1][light]) - r1));

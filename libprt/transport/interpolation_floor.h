@@ -1,7 +1,8 @@
 #pragma once
-// The interpolation floor: how far a picture that interpolates baked vertices must be from the truth, even if
-// every vertex were exact. It is the mesh's resolution against the sharpness of its shadows; no number of
-// rays lowers it, more vertices do. Every bake reports it, so that errors of pictures can be judged.
+// The interpolation floor: how far a picture that interpolates baked vertices, or texels, must be from the
+// truth, even if every one were exact. It is their resolution against the sharpness of the shadows; no number
+// of rays lowers it, more vertices or texels do. Every bake reports it, so that errors of pictures can be
+// judged.
 
 #include "libprt/core/job.h"
 #include "libprt/transport/transfer_bake.h"
@@ -21,19 +22,19 @@ struct FloorOptions {
 /// Relative root-mean-square errors of irradiance over the surface, noise separated: every mean square is the
 /// product of two independent estimates, so that their noise averages to zero instead of adding up.
 struct InterpolationFloor {
-  double interpolation = 0;       ///< exact vertices, interpolated, against exact points: the floor
+  double interpolation = 0;       ///< exact samples, interpolated, against exact points: the floor
   double interpolationError = 0;  ///< standard error of that, from the choice of points
-  double product = 0;             ///< the baked vertices, interpolated, against exact points
+  double product = 0;             ///< the baked samples, interpolated, against exact points
   double sampling = 0;     ///< what the product's own sampling noise adds: sqrt(product^2 - interpolation^2)
-  std::size_t points = 0;  ///< compared; points or vertices inside of something are left out
+  std::size_t points = 0;  ///< compared; points or samples inside of something are left out
 };
 
-/// Measures the floor of a finished bake at the scene's vertices. `lights` are what it is judged by, all
-/// together; none = a prior over all lights: a white sky plus independent random coefficients whose
-/// standard deviation falls as 1/(l+1). A product of form None interpolates nothing: all zero.
-/// Costs about 8 bakes of `points` samples.
+/// Measures the floor of a finished bake at the scene's vertices or texels, `surface`. `lights` are what it
+/// is judged by, all together; none = a prior over all lights: a white sky plus independent random
+/// coefficients whose standard deviation falls as 1/(l+1). A product of form None interpolates nothing: all
+/// zero. Costs about 8 bakes of `points` samples.
 InterpolationFloor measureInterpolationFloor(std::shared_ptr<const Scene> scene,
-                                             std::shared_ptr<const RayScene> rays, const SampleSet& vertices,
+                                             std::shared_ptr<const RayScene> rays, const SampleSet& surface,
                                              const Transfer& transfer, const TransferSettings& settings,
                                              std::span<const ShRgb> lights, Job& job,
                                              const FloorOptions& options = {});

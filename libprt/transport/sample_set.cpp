@@ -229,6 +229,25 @@ SampleSet someSamples(const SampleSet& samples, std::span<const std::uint32_t> i
   return some;
 }
 
+bool SampleSet::at(const TriMesh& mesh, std::uint32_t t, const Vec2& b, bool onBack,
+                   SamplePlace& place) const {
+  if (texels) {
+    const TexelPlace four = texels->at(t, b);
+    place.sample = four.texel;
+    place.weight = Vec4(four.weight[0], four.weight[1], four.weight[2], four.weight[3]);
+  } else {
+    const UVec3& corner = mesh.triangles[t];
+    place.sample = {corner.x, corner.y, corner.z, corner.x};
+    place.weight = Vec4(1 - b.x - b.y, b.x, b.y, 0);
+  }
+  for (std::size_t i = 0; onBack && i < 4; ++i) {
+    std::uint32_t& s = place.sample[i];
+    s = s < back.size() ? back[s] : kNone;
+    if (s == kNone) return false;
+  }
+  return true;
+}
+
 SampleSet samplesAtVertices(const Scene& scene, Job* job) {
   const TriMesh& mesh = scene.mesh;
   SampleSet set;

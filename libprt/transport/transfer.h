@@ -37,8 +37,8 @@ struct Transfer {
   /// the cosine inside, where T would cut it (times the light) off after n bands.
   Array diffuse;
   /// With bounces: [V, n^2] or [V, n^2, 3] f32, irradiance vectors of all bounces but the last at the
-  /// vertices of the scene (and their backs): what the last bounce gathered from. Any other set of points
-  /// gathers its bounces from it too.
+  /// vertices of the scene, or the texels, and their backs: what the last bounce gathered from. Any other set
+  /// of points gathers its bounces from it too.
   Array surface;
   int raysPerSample = 0;  ///< rays gathered so far
   int raysWanted = 0;     ///< final when raysPerSample == raysWanted

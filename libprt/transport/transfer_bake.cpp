@@ -57,17 +57,18 @@ SampleRows padded(const Array& array, std::size_t width) {
 }
 
 void checkParts(const Scene& scene, const SampleSet& samples, const DirectTransfer& direct,
-                const TransferSettings& settings, TransferForm form, const Transfer* surface) {
+                const TransferSettings& settings, TransferForm form, const Transfer* surface,
+                const SampleSet* surfaceSamples) {
   const bool fits = direct.samples() == samples.size() && direct.settings.bands == settings.bands &&
                     direct.raysPerSample > 0 && (form == TransferForm::Diffuse || direct.settings.visibility);
   if (!fits)
     throw ValueError("direct transfer is of another bake", "transfer",
                      "bake direct transfer with the same settings");
-  if (settings.bounces == 0 || form == TransferForm::Visibility || samples.vertices > 0) return;
-  const bool serves =
-      surface && surface->bands == settings.bands &&
-      (surface->bounces == 0 || surface->surface.shape.size() >= 2) &&
-      (surface->bounces == 0 || std::size_t(surface->surface.shape[0]) >= scene.mesh.vertexCount());
+  if (settings.bounces == 0 || form == TransferForm::Visibility || samples.coversSurface()) return;
+  const std::size_t needed = surfaceSamples ? surfaceSamples->size() : scene.mesh.vertexCount();
+  const bool serves = surface && surface->bands == settings.bands &&
+                      (surface->bounces == 0 || surface->surface.shape.size() >= 2) &&
+                      (surface->bounces == 0 || std::size_t(surface->surface.shape[0]) >= needed);
   if (!serves)
     throw ValueError("points off the vertices need the vertices' transfer for their bounces", "transfer",
                      "bake the vertices first");
@@ -86,7 +87,7 @@ class Finish {
  public:
   Finish(const Scene& scene, const RayScene& rays, const SampleSet& samples, const DirectTransfer& direct,
          const TransferSettings& settings, TransferForm form, Job& job, const Transfer* surface,
-         const BounceCheckpoint* checkpoint)
+         const BounceCheckpoint* checkpoint, const SampleSet* surfaceSamples)
       : scene_(scene),
         rays_(rays),
         samples_(samples),
@@ -94,8 +95,10 @@ class Finish {
         settings_(settings),
         form_(form),
         job_(job),
-        ownSurface_(samples.vertices > 0 ? SampleSet{} : samplesAtVertices(scene)),
-        surfaceSet_(samples.vertices > 0 ? samples : ownSurface_),
+        ownSurface_(samples.coversSurface() || surfaceSamples ? SampleSet{} : samplesAtVertices(scene)),
+        surfaceSet_(samples.coversSurface() ? samples
+                    : surfaceSamples        ? *surfaceSamples
+                                            : ownSurface_),
         surface_(surface),
         checkpoint_(checkpoint),
         fill_(scene, samples, direct.buried.as<std::uint8_t>()),
@@ -135,13 +138,13 @@ class Finish {
     Bounced bounced;
     bounced.total = padded(direct_.diffuse, std::size_t(shCount(settings_.bands)));
     if (settings_.bounces == 0 || form_ == TransferForm::Visibility) return bounced;
-    if (samples_.vertices > 0) {
-      std::optional<AreaMeans> means;  // previews do without
-      if (settings_.areaMeans && direct_.final())
+    if (samples_.coversSurface()) {
+      std::optional<AreaMeans> means;  // previews do without, and texels: they are small
+      if (settings_.areaMeans && direct_.final() && !samples_.texels)
         means.emplace(scene_, rays_, samples_, direct_, settings_.hitMemory / 8, job_);
       BounceResult chain =
-          bounceBetweenVertices(scene_, samples_, direct_, gather_, means ? &*means : nullptr, fill_,
-                                settings_.bounces, settings_.stopThreshold, job_, checkpoint_);
+          bounceBetweenSamples(scene_, samples_, direct_, gather_, means ? &*means : nullptr, fill_,
+                               settings_.bounces, settings_.stopThreshold, job_, checkpoint_);
       return {chain.channels, chain.bounces, std::move(chain.total), std::move(chain.surface)};
     }
     if (surface_->bounces == 0) return bounced;
@@ -244,7 +247,8 @@ DirectSettings directSettings(const TransferSettings& settings, TransferForm for
 
 Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSet& samples,
                         const DirectTransfer& direct, const TransferSettings& settings, TransferForm form,
-                        Job& job, const Transfer* surface, const BounceCheckpoint* checkpoint) {
+                        Job& job, const Transfer* surface, const BounceCheckpoint* checkpoint,
+                        const SampleSet* surfaceSamples) {
   check(settings);
   if (form == TransferForm::None) {
     Transfer none;
@@ -252,8 +256,8 @@ Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSe
     none.samples = samples.size();
     return none;
   }
-  checkParts(scene, samples, direct, settings, form, surface);
-  return Finish(scene, rays, samples, direct, settings, form, job, surface, checkpoint).run();
+  checkParts(scene, samples, direct, settings, form, surface, surfaceSamples);
+  return Finish(scene, rays, samples, direct, settings, form, job, surface, checkpoint, surfaceSamples).run();
 }
 
 Transfer bakeTransfer(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,

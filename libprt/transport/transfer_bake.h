@@ -3,7 +3,8 @@
 // transfer bake; it depends on the direct product and the albedos.
 //
 // Bounces (Neumann gather, ALGORITHMS 3.2): e_{k+1} = (1/pi) integral over the rays that hit of
-// albedo * e_k at the hit point * cosine, e_k interpolated between the vertices of the triangle that was hit.
+// albedo * e_k at the hit point * cosine, e_k interpolated between the vertices of the triangle that was hit,
+// or between the texels around the point.
 // Glossy surfaces reflect diffusely in bounces: only their albedo counts there, not their specular part.
 // Back faces block and reflect nothing, unless the material is two-sided: then the sample on the vertex's
 // back answers. For the Matrix form the last bounce keeps the direction that light comes from.
@@ -52,15 +53,16 @@ struct BounceCheckpoint {
   std::function<void(std::map<std::string, Array>)> keep;  ///< gets the state after every bounce
 };
 
-/// Everything after the direct product. `samples` are those of `direct`. When they are the scene's vertices,
-/// `surface` may be null. For other sets it must be a finished Transfer of the same scene's vertices with the
-/// same number of bounces: light bounces between vertices, and any point gathers from them.
-/// `checkpoint` serves the vertices' own bounces. For the form None `direct` is ignored. Throws ValueError
-/// when the parts do not fit.
+/// Everything after the direct product. `samples` are those of `direct`. When they are the scene's vertices
+/// or the texels of its charts, `surface` may be null. For other sets it must be a finished Transfer of the
+/// same scene's vertices, or of `surfaceSamples` (its texels), with the same number of bounces: light bounces
+/// between those, and any point gathers from them. `checkpoint` serves their own bounces. For the form None
+/// `direct` is ignored. Throws ValueError when the parts do not fit.
 Transfer finishTransfer(const Scene& scene, const RayScene& rays, const SampleSet& samples,
                         const DirectTransfer& direct, const TransferSettings& settings, TransferForm form,
                         Job& job, const Transfer* surface = nullptr,
-                        const BounceCheckpoint* checkpoint = nullptr);
+                        const BounceCheckpoint* checkpoint = nullptr,
+                        const SampleSet* surfaceSamples = nullptr);
 
 /// The whole bake. `preview`, if given, gets every level but the last as it is completed.
 Transfer bakeTransfer(std::shared_ptr<const Scene> scene, std::shared_ptr<const RayScene> rays,

@@ -8,6 +8,7 @@
 #include "libprt/shade/render.h"
 #include "libprt/transport/transfer_bake.h"
 #include "tests/gl/gl_test_support.h"
+#include "tests/support/atlases.h"
 #include "tests/support/off_edges.h"
 
 #include <algorithm>
@@ -102,7 +103,7 @@ void expectAgreement(const TestScene& s, const Transfer& transfer, const LightRi
                               tone);
 
   static SceneRenderer renderer;
-  renderer.setScene(*s.scene, s.samples->back);
+  renderer.setScene(*s.scene, *s.samples);
   if (rig.environment) renderer.setEnvironment(*rig.environment);
   renderer.setLight(surfaceLight(transfer, light, *s.samples));
   Picture picture{.camera = s.camera, .width = kWidth, .height = kHeight, .samples = 1};
@@ -191,6 +192,27 @@ TEST_F(AgreementTest, GlossyWithoutBackSides) {
   expectAgreement(s, bake(s, TransferForm::Matrix, 5, 1), turned(s, 20), "matrix");
   expectAgreement(s, bake(s, TransferForm::Matrix, 3, 0), turned(s, 170), "matrix of 3 bands");
   expectAgreement(s, bake(s, TransferForm::Visibility, 8, 0), turned(s, 0), "visibility of 8 bands");
+}
+
+// The same scene with transfer at the texels of its charts.
+TestScene atTexels(TestScene s) {
+  s.samples = test::texelSamples(*s.scene, 96);
+  return s;
+}
+
+TEST_F(AgreementTest, AtTexels) {
+  const TestScene s = atTexels(twoSidedScene());
+  expectAgreement(s, bake(s, TransferForm::None, 5, 0), turned(s, 0), "none at texels");
+  expectAgreement(s, bake(s, TransferForm::Diffuse, 5, 1), turned(s, 30), "diffuse at texels");
+  expectAgreement(s, bake(s, TransferForm::Visibility, 4, 0), turned(s, 80), "visibility at texels");
+  expectAgreement(s, bake(s, TransferForm::Matrix, 3, 1), turned(s, 160), "matrix at texels");
+}
+
+TEST_F(AgreementTest, AtTexelsWithoutBackSides) {
+  const TestScene s = atTexels(oneSidedScene());
+  ASSERT_TRUE(s.samples->back.empty());
+  expectAgreement(s, bake(s, TransferForm::Diffuse, 4, 0), turned(s, 30), "diffuse at texels");
+  expectAgreement(s, bake(s, TransferForm::Visibility, 5, 0), turned(s, 80), "visibility at texels");
 }
 
 // What the studio's two canvases show: grid and smooth background included.

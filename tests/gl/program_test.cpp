@@ -33,7 +33,7 @@ TEST_F(ProgramTest, EveryFragmentShaderOfTheLibraryCompiles) {
                                     [&](const ShaderSource& each) { return each.name == own; });
     const std::string vertex = paired ? own : "fullscreen.vert";
     for (const int bands : {1, 2, 5, 10})
-      for (const char* variant : {"", "#define EVERYWHERE\n"})
+      for (const char* variant : {"", "#define EVERYWHERE\n", "#define TEXELS\n"})
         EXPECT_NO_THROW(Program::fromLibrary(
             vertex, shader.name,
             shGlsl(bands) + "#define RESPONSE_ROWS 512\n#define SHADE_LEAST 0.5\n#define DARK_SQUARE 0.5\n" +

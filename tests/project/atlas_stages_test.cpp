@@ -9,6 +9,7 @@
 #include "libprt/project/hand_cuts.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
+#include "libprt/project/relight.h"
 #include "tests/project/toy_stages.h"
 #include "tests/support/temporary_folder.h"
 
@@ -162,6 +163,95 @@ TEST(AtlasStages, PolygonsHaveTheCornersAskedFor) {
   EXPECT_GE(atlas->facts.l2, 1.0);
   Job job;
   EXPECT_TRUE(overlappingTexels(*atlas->atlas, 256, job).empty());
+}
+
+// Charts are cut for free boundaries: on triangles they stretch more than was asked for, and that is said.
+TEST(AtlasStages, ABoundMissedOnPolygonsNamesTheChart) {
+  Recipe recipe = small("builtin:vase");
+  const Products free = bake(recipe);
+  EXPECT_EQ(stretchNote(recipe, *free.get<ChartsProduct>("charts")), "");
+  recipe.charts.boundary = ChartsBoundary::Polygon;
+  recipe.charts.corners = 3;
+  const Products polygons = bake(recipe);
+  EXPECT_GT(polygons.get<AtlasProduct>("atlas")->facts.l2, 1.10);
+  const std::string note = stretchNote(recipe, *polygons.get<ChartsProduct>("charts"));
+  EXPECT_NE(note.find("chart "), std::string::npos) << note;
+  EXPECT_NE(note.find("1.100"), std::string::npos) << note;
+}
+
+Recipe texels(int count) {
+  Recipe recipe = small("builtin:vase");
+  recipe.transfer.where = TransferWhere::Texel;
+  recipe.transfer.texels = count;
+  recipe.transfer.rays = 16;
+  recipe.transfer.bounces = 1;
+  return recipe;
+}
+
+std::vector<std::string> stagesMade(Pipeline& pipeline, const Recipe& recipe) {
+  struct : PipelineListener {
+    std::vector<std::string> made;
+    void stageBegun(const Stage& stage) override { made.push_back(stage.name); }
+    bool wantsPreviews() const override { return false; }
+  } listener;
+  Job job;
+  pipeline.run(recipe, {"transfer"}, job, &listener);
+  return listener.made;
+}
+
+TEST(AtlasStages, TransferAtTexelsNeedsTheAtlasAndAtVerticesDoesNot) {
+  const auto isMade = [](const std::vector<std::string>& made, const char* stage) {
+    return std::find(made.begin(), made.end(), stage) != made.end();
+  };
+  MemoryStore store;
+  Pipeline pipeline(&store, {});
+  Recipe recipe = texels(48);
+  const auto first = stagesMade(pipeline, recipe);
+  for (const char* stage : {"charts", "atlas", "samples", "direct", "transfer"})
+    EXPECT_TRUE(isMade(first, stage)) << stage;
+  recipe.atlas.gutter = 3;  // packed anew, not cut anew, and so transfer is of other texels
+  const auto packed = stagesMade(pipeline, recipe);
+  EXPECT_FALSE(isMade(packed, "charts"));
+  EXPECT_TRUE(isMade(packed, "atlas") && isMade(packed, "transfer"));
+  recipe.transfer.texels = 32;
+  const auto coarser = stagesMade(pipeline, recipe);
+  EXPECT_FALSE(isMade(coarser, "atlas"));
+  EXPECT_TRUE(isMade(coarser, "samples") && isMade(coarser, "transfer"));
+  recipe.transfer.where = TransferWhere::Vertex;
+  const auto vertices = stagesMade(pipeline, recipe);
+  EXPECT_FALSE(isMade(vertices, "charts") || isMade(vertices, "atlas"));
+  recipe.atlas.gutter = 1;
+  EXPECT_TRUE(stagesMade(pipeline, recipe).empty());
+  for (const Stage& stage : stages())
+    if (stage.name == "atlas") {
+      EXPECT_TRUE(isWanted(stage, texels(48)));
+      EXPECT_FALSE(isWanted(stage, recipe));
+    }
+}
+
+// At vertices the keys of samples and transfer are what they were before there were texels.
+TEST(AtlasStages, TransferAtVerticesKeepsItsKey) {
+  Recipe recipe = small("builtin:vase");
+  const auto keys = Pipeline(nullptr, {}).keys(recipe);
+  recipe.transfer.texels = 77;
+  recipe.charts.stretch = 1.2f;
+  EXPECT_EQ(Pipeline(nullptr, {}).keys(recipe).at("transfer"), keys.at("transfer"));
+}
+
+TEST(AtlasStages, PicturesAreDrawnFromTexels) {
+  Job job;
+  Recipe recipe = texels(64);
+  const Products products = Pipeline(nullptr, {}).run(recipe, {"transfer"}, job);
+  const BakedScene baked = bakedScene(products);
+  ASSERT_TRUE(baked.samples->samples->texels);
+  LightRig lights;
+  lights.constant = Rgb(1);
+  const Image image = relight(baked, recipe, lights, frameBox(baked.geometry->scene->mesh.bounds()),
+                              {.width = 48, .height = 48}, job);
+  float brightest = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 48; ++x) brightest = std::max(brightest, image.pixel(x, y)[0]);
+  EXPECT_GT(brightest, 0.3f);
 }
 
 TEST(AtlasStages, SettingsOfSingleChartsAreUsedAndChecked) {

@@ -9,6 +9,7 @@
 #include "libprt/mesh/generate.h"
 #include "libprt/shade/render.h"
 #include "libprt/transport/transfer_bake.h"
+#include "tests/support/atlases.h"
 
 #include <gtest/gtest.h>
 
@@ -109,6 +110,20 @@ TEST(LiveRenderer, DrawsWhatTheRendererDraws) {
                           Case{TransferForm::Visibility, 5, 0}, Case{TransferForm::Matrix, 5, 1},
                           Case{TransferForm::Matrix, 3, 0}, Case{TransferForm::Matrix, 6, 0},
                           Case{TransferForm::Matrix, 8, 0}}) {
+      w.live.transfer = bake(w, c.form, c.bands, c.bounces);
+      EXPECT_EQ(differing(w, drawn(renderer, w)), 0)
+          << int(c.form) << " " << c.bands << (twoSided ? " two-sided" : "");
+    }
+  }
+}
+
+TEST(LiveRenderer, DrawsWhatTheRendererDrawsAtTexels) {
+  for (const bool twoSided : {false, true}) {
+    World w = makeWorld(twoSided);
+    w.live.samples = test::texelSamples(*w.live.scene, 64);
+    LiveRenderer renderer;
+    for (const Case& c : {Case{TransferForm::None, 5, 0}, Case{TransferForm::Diffuse, 5, 1},
+                          Case{TransferForm::Visibility, 4, 0}, Case{TransferForm::Matrix, 3, 0}}) {
       w.live.transfer = bake(w, c.form, c.bands, c.bounces);
       EXPECT_EQ(differing(w, drawn(renderer, w)), 0)
           << int(c.form) << " " << c.bands << (twoSided ? " two-sided" : "");

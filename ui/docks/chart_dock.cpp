@@ -307,7 +307,8 @@ void ChartDock::refreshNumbers() {
   state_->setVisible(!lines.isEmpty());
 }
 
-// One line per chart that cannot be laid flat: why, and the cut that mends it.
+// One line per chart that cannot be laid flat, why, and the cut that mends it; and one for the chart that
+// stretches most where the bound is missed.
 void ChartDock::refreshFaults() {
   QStringList texts;
   std::vector<int> which;
@@ -322,6 +323,14 @@ void ChartDock::refreshFaults() {
   }
   mend_->setEnabled(suggested);
   mend_->setVisible(!texts.isEmpty());
+  if (const ChartNumbers n = charts_.numbers(); n.stretched >= 0) {
+    which.push_back(n.stretched);
+    const ChartItem& item = charts_.items()[std::size_t(n.stretched)];
+    texts << tr("Chart %1: L2 %2, all %3, bound %4")
+                 .arg(n.stretched + 1)
+                 .arg(number(item.map->stretch.l2(), 2), number(n.l2, 2),
+                      number(double(session_.document().recipe().charts.stretch), 2));
+  }
   if (texts == faultTexts_) return;
   faultTexts_ = texts;
   qDeleteAll(faults_->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly));

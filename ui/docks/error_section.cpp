@@ -143,6 +143,8 @@ void ErrorSection::refresh() {
   measure_->setText(errors.measuring() ? tr("Cancel") : tr("Estimate"));
   measure_->setToolTip(errors.possible()
                            ? tr("Measures the error of this bake; takes about as long as the bake did.")
+                       : session_.document().recipe().transfer.where == TransferWhere::Texel
+                           ? tr("Only of transfer at the vertices.")
                            : tr("Possible once the bake is final."));
   table_->setVisible(map);
   for (std::size_t i = 0; map && i < 3; ++i) {

@@ -12,6 +12,8 @@
 #include <QLabel>
 #include <QPushButton>
 
+#include <string_view>
+
 namespace prt::ui {
 
 TransferDock::TransferDock(Session& session, QWidget* parent)
@@ -23,9 +25,12 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
       products_(new QWidget) {
   auto* bake = new Section(tr("Transfer"));
   bake->add(message_);
-  for (const char* path :
-       {"transfer.kind", "transfer.bands", "transfer.rays", "transfer.bounces", "transfer.shadows"})
-    bake->add(new PropertyRow(session.document(), QLatin1String(path)));
+  for (const char* path : {"transfer.kind", "transfer.where", "transfer.texels", "transfer.bands",
+                           "transfer.rays", "transfer.bounces", "transfer.shadows"}) {
+    auto* row = new PropertyRow(session.document(), QLatin1String(path));
+    if (path == std::string_view("transfer.texels")) texels_ = row;
+    bake->add(row);
+  }
   auto* automatic = new QCheckBox(tr("Bake by itself after edits"));
   automatic->setChecked(session_.bakes().automatic());
   automatic->setToolTip(
@@ -61,6 +66,7 @@ TransferDock::TransferDock(Session& session, QWidget* parent)
 void TransferDock::refresh() {
   const BakeController& bakes = session_.bakes();
   if (bakes.error().isEmpty()) message_->hide();
+  texels_->setEnabled(session_.document().recipe().transfer.where == TransferWhere::Texel);
   button_->setText(bakes.baking() ? tr("Cancel") : tr("Bake"));
   button_->setIcon(bakes.baking() ? icon(QStringLiteral("process-stop")) : icon(QStringLiteral("run-build")));
   button_->setEnabled(bakes.baking() || !bakes.fresh());
@@ -81,6 +87,10 @@ void TransferDock::refreshProducts() {
                                     QStringLiteral("idmap")};
     return !info.stored || others.contains(info.name);
   });
+  for (int row = 0; row < grid->rowCount(); ++row)
+    for (int column = 0; column < 3; ++column)
+      if (const auto* item = grid->itemAtPosition(row, column))
+        item->widget()->setVisible(row < int(infos.size()));
   for (int row = 0; row < int(infos.size()); ++row) {
     if (!grid->itemAtPosition(row, 0)) {
       grid->addWidget(new StateDot, row, 0);

@@ -23,6 +23,7 @@ class TransferDock : public DockColumn {
 
   Session& session_;
   MessageBar* message_;
+  QWidget* texels_ = nullptr;  // their number, which means something at texels only
   QPushButton* button_;
   QLabel* summary_;
   QWidget* products_;

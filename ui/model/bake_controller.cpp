@@ -27,7 +27,7 @@ const Stage& stageNamed(const std::string& name) {
                        [&](const Stage& stage) { return stage.name == name; });
 }
 
-// The stage and all that it is made from, in any order.
+// The stage and all that it may be made from, in any order.
 void collect(const std::string& name, QStringList& into) {
   const QString text = QString::fromStdString(name);
   if (into.contains(text)) return;
@@ -35,8 +35,8 @@ void collect(const std::string& name, QStringList& into) {
   for (const std::string& input : stageNamed(name).inputs) collect(input, into);
 }
 
-// Those and what they are made from. Charts are baked only for a patch on the surface: cutting must not stop
-// other bakes.
+// Those and what they may be made from. Charts are baked only for a patch on the surface and for transfer at
+// their texels: cutting must not stop other bakes.
 bool isBakedHere(const Stage& stage) {
   static const std::set<std::string> needed = [] {
     QStringList all;
@@ -62,7 +62,7 @@ std::map<std::string, std::string> readings(const Recipe& recipe) {
   for (const Stage& stage : stages())
     if (stage.derives && isBakedHere(stage)) texts[stage.name] += stage.derives(plain) + "\n";
   for (const Stage& stage : stages())
-    for (const std::string& input : stage.inputs)
+    for (const std::string& input : stage.inputsFor(plain))
       if (isBakedHere(stage)) texts[stage.name] += "[" + input + "]" + texts[input];
   return texts;
 }
@@ -83,21 +83,25 @@ bool sameBake(const Recipe& a, const Recipe& b) {
 }
 
 bool wantedBy(const Recipe& recipe, const std::string& stage) {
-  const auto& wanted = stageNamed(stage).wanted;
-  return !wanted || wanted(recipe);
+  return isWanted(stageNamed(stage), recipe);
+}
+
+// The stage and all that it is made from for a recipe.
+QStringList withInputs(const std::string& name, const Recipe& recipe) {
+  QStringList all{QString::fromStdString(name)};
+  for (const std::string& input : stageNamed(name).inputsFor(recipe))
+    for (const QString& each : withInputs(input, recipe))
+      if (!all.contains(each)) all << each;
+  return all;
 }
 
 // What a bake of this recipe makes: what the studio shows of it, and what that is made from.
 QStringList stagesFor(const Recipe& recipe) {
   QStringList all;
   for (const std::string& name : kWanted)
-    if (wantedBy(recipe, name)) collect(name, all);
-  return all;
-}
-
-QStringList withInputs(const std::string& name) {
-  QStringList all;
-  collect(name, all);
+    if (wantedBy(recipe, name))
+      for (const QString& each : withInputs(name, recipe))
+        if (!all.contains(each)) all << each;
   return all;
 }
 
@@ -284,7 +288,7 @@ void BakeController::arrived(quint64 bake, const QString& stage, const ProductSt
   if (state.final()) {
     final_[stage.toStdString()] = state;
     // What it was made from is as good as made, even where the project had the result and nobody asked.
-    for (const QString& each : withInputs(stage.toStdString())) {
+    for (const QString& each : withInputs(stage.toStdString(), recipe_)) {
       infoOf(each)->status = ProductStatus::Fresh;
       made_[each.toStdString()] = wanted_[each.toStdString()];
     }

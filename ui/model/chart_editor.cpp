@@ -448,13 +448,21 @@ ChartNumbers ChartEditor::numbers() const {
   ChartNumbers numbers;
   numbers.charts = int(items_.size());
   StretchSum sum;
-  for (const ChartItem& item : items_) {
+  double most = 0;
+  int stretched = -1;
+  for (int c = 0; c < int(items_.size()); ++c) {
+    const ChartItem& item = items_[std::size_t(c)];
     numbers.notDisks += item.bad();
     numbers.overlaps += item.overlaps;
-    if (item.map && item.placement) sum += item.map->stretch.scaled(item.placement->scale);
+    if (!item.map || !item.placement) continue;
+    sum += item.map->stretch.scaled(item.placement->scale);
+    const double l2 = item.map->stretch.l2(), excess = (l2 * l2 - 1) * item.map->stretch.area;
+    if (excess > most) most = excess, stretched = c;
   }
   numbers.l2 = sum.l2();
   numbers.lInf = sum.lInf();
+  if (movable() && settled() && numbers.l2 > autoCutOptionsOf(chartsRecipe_).stretch)
+    numbers.stretched = stretched;
   if (on_ && !items_.empty()) numbers.seam = seamLength_ / std::sqrt(on_->surface.totalArea());
   if (atlas_) numbers.filled = facts_.filled;
   numbers.final = settled();

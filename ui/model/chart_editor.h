@@ -45,6 +45,7 @@ struct ChartNumbers {
   double l2 = 1, lInf = 1;
   double seam = 0;     ///< relative to the root of the area
   double filled = -1;  ///< negative: not known
+  int stretched = -1;  ///< the chart that adds most where all together stretch more than charts.stretch
   bool final = false;  ///< nothing is being worked on
 };
 

@@ -80,8 +80,8 @@ ErrorEstimate::~ErrorEstimate() = default;
 
 bool ErrorEstimate::possible() const {
   const Relighter& lit = session_.relighter();
-  return lit.scene() && lit.samples() && lit.transfer() && lit.transfer()->final() &&
-         session_.bakes().fresh();
+  return lit.scene() && lit.samples() && !lit.samples()->texels && lit.transfer() &&
+         lit.transfer()->final() && session_.bakes().fresh();
 }
 
 void ErrorEstimate::show(ErrorShown what) {

@@ -164,8 +164,10 @@ void GlCanvas::uploadChanges() {
   Relighter& lit = context_.relighter;
   if (!lit.scene()) return;
   if (scene_ != lit.sceneVersion()) {
-    renderer_->setScene(*lit.scene(), lit.samples() ? std::span<const std::uint32_t>(lit.samples()->back)
-                                                    : std::span<const std::uint32_t>());
+    if (lit.samples())
+      renderer_->setScene(*lit.scene(), *lit.samples());
+    else
+      renderer_->setScene(*lit.scene());
     scene_ = lit.sceneVersion();
     light_ = materials_ = 0;
   }
