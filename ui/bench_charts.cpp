@@ -18,6 +18,7 @@ namespace prt::ui {
 namespace {
 
 constexpr int kTries = 5;
+constexpr const char* kDetail = "0.25";  // the largest chart has some 10 000 triangles then
 
 double milliseconds(const QElapsedTimer& timer) {
   return 1e-6 * double(timer.nsecsElapsed());
@@ -28,7 +29,7 @@ class ChartBench {
   explicit ChartBench(BenchHand& hand) : hand_(hand), charts_(hand.session().charts()) {}
 
   nlohmann::json run() {
-    hand_.edit({{"mesh.path", "builtin:bird"}});
+    hand_.edit({{"mesh.path", "builtin:bird"}, {"mesh.detail", kDetail}, {"transfer.rays", "64"}});
     hand_.window().bringToFront(QStringLiteral("charts"));
     settle();
     charts_.autoCut();

@@ -8,9 +8,14 @@
 #include <QElapsedTimer>
 #include <QEventLoop>
 #include <QMouseEvent>
+#include <QTimer>
 #include <QWindow>
 
 namespace prt::ui {
+
+namespace {
+constexpr int kWakeMilliseconds = 2;
+}
 
 BenchHand::BenchHand(MainWindow& window, Session& session) : window_(window), session_(session) {
   QObject::connect(&session, &Session::message, &window,
@@ -22,12 +27,15 @@ BenchHand::BenchHand(MainWindow& window, Session& session) : window_(window), se
 void BenchHand::waitFor(const std::function<bool()>& done, double seconds) {
   QElapsedTimer timer;
   timer.start();
+  QTimer awake;  // what is waited for may come without an event
+  awake.start(kWakeMilliseconds);
   while (!done()) {
     if (!problem_.isEmpty()) throw ResourceError(problem_.toStdString(), "bench", {});
     if (double(timer.elapsed()) > 1000 * seconds)
       throw ResourceError("what was waited for did not come in " + std::to_string(int(seconds)) + " seconds",
                           "bench", "use a smaller scene");
-    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents, 20);
+    // Without a time: with one it would not wait but spin, and take a core from the work that is waited for.
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
   }
 }
 

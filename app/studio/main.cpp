@@ -62,7 +62,8 @@ Options parse(const QApplication& application) {
         QStringLiteral("WxH")},
        {QStringLiteral("bench"),
         QStringLiteral("measure how fast the window follows the hand, print it as JSON and end")},
-       {QStringLiteral("bench-charts"), QStringLiteral("the same, and cut charts and drag their corners")},
+       {QStringLiteral("bench-charts"),
+        QStringLiteral("the same of cutting charts and dragging their corners")},
        {QStringLiteral("frames"), QStringLiteral("of each part of the bench, 90 by default"),
         QStringLiteral("N"), QStringLiteral("90")}});
   parser.process(application);

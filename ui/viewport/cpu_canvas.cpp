@@ -1,5 +1,6 @@
 #include "ui/viewport/cpu_canvas.h"
 
+#include "libprt/core/parallel.h"
 #include "libprt/shade/ground_grid.h"
 
 #include <QElapsedTimer>
@@ -146,6 +147,8 @@ void CpuCanvas::startSmooth() {
   smooth_->version = version_;
   smoothing_.start([this, smooth = smooth_, scene = liveScene(),
                     picture = livePicture(pixels(1), smoothGrid()), layers = layersNow(1, 2)] {
+    // Nobody waits for it: charts and bakes that the hand has just changed come first or beside it.
+    const BackgroundWork background;
     QImage image;
     try {
       LiveRenderer renderer;
