@@ -1,5 +1,6 @@
 #include "ui/main_window.h"
 
+#include "libprt/project/laid_patch.h"
 #include "ui/docks/chart_dock.h"
 #include "ui/docks/jobs_dock.h"
 #include "ui/docks/light_dock.h"
@@ -201,7 +202,7 @@ void MainWindow::makeDocks() {
       tr("Charts"), tr("The surface cut into charts, laid flat and packed."),
       [this, baked = stage({"charts", "atlas"})] {
         const ChartNumbers n = session_.charts().numbers();
-        if (n.charts == 0 && session_.document().recipe().method.name == "biscale") return baked();
+        if (n.charts == 0 && showsPatch(session_.document().recipe())) return baked();
         if (n.charts == 0) return ProductStatus::Missing;
         if (n.notDisks + n.overlaps > 0 || !session_.charts().problems().isEmpty())
           return ProductStatus::Failed;
@@ -219,11 +220,7 @@ void MainWindow::makeDocks() {
   const auto laid = stage({"field", "synthesis", "idmap"});
   strip_->addStep(
       tr("Synthesis"), tr("The patch laid over the surface."),
-      [this, laid] {
-        const Recipe& recipe = session_.document().recipe();
-        const bool shown = recipe.patch.model != PatchModel::None && recipe.method.name == "biscale";
-        return shown ? laid() : ProductStatus::Missing;
-      },
+      [this, laid] { return showsPatch(session_.document().recipe()) ? laid() : ProductStatus::Missing; },
       bring(synthesis));
   strip_->addStep(tr("Transfer"), tr("What is baked for the surface."), stage({"direct", "transfer"}),
                   bring(transfer));

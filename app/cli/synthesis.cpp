@@ -5,11 +5,13 @@
 #include "libprt/core/image_io.h"
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/export_synthesis.h"
+#include "libprt/project/laid_patch.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
+#include "libprt/shade/biscale.h"
 #include "libprt/shade/patch_look.h"
 
 #include <fmt/format.h>
@@ -29,57 +31,50 @@ struct Options {
 struct Laid {
   std::shared_ptr<const SynthesisProduct> synthesis;
   std::shared_ptr<const IdMapProduct> idmap;
-  std::shared_ptr<const AtlasProduct> atlas;
-  std::shared_ptr<const RttProduct> rtt;
-  std::shared_ptr<const SceneProduct> scene;
-  std::shared_ptr<const FramesProduct> frames;
+  Products products;  // these, and what a picture of them needs
 };
 
 Laid laidPatch(Pipeline& pipeline, const Recipe& recipe, const std::string& project, Job& job) {
-  const Products found = pipeline.find(recipe, {"synthesis", "idmap", "atlas", "rtt"});
-  Laid laid{found.get<SynthesisProduct>("synthesis"),
-            found.get<IdMapProduct>("idmap"),
-            found.get<AtlasProduct>("atlas"),
-            found.get<RttProduct>("rtt"),
-            nullptr,
-            nullptr};
+  Products products = pipeline.find(recipe, {"synthesis", "idmap", "atlas", "rtt"});
+  Laid laid{products.get<SynthesisProduct>("synthesis"), products.get<IdMapProduct>("idmap"), {}};
   if (!laid.synthesis || !laid.synthesis->meso)
     throw ValueError("holds no patch laid over the surface", project,
                      resolved(recipe).synthesis.mapping == PatchMapping::Uv
                          ? "synthesis.mapping=uv needs none"
                          : "set patch.model and run prt bake --stage idmap");
-  const Products made = pipeline.run(recipe, {"scene", "frames"}, job);
-  laid.scene = made.get<SceneProduct>("scene"), laid.frames = made.get<FramesProduct>("frames");
+  products.states.merge(pipeline.run(recipe, {"scene", "frames", "samples"}, job).states);
+  laid.products = std::move(products);
   return laid;
 }
 
-/// The transferred light at the vertices, where the project holds it in enough bands; else empty.
-std::vector<Rgb> incidentLight(Pipeline& pipeline, const Recipe& recipe, const LightRig& lights, int bands) {
-  const auto transfer = pipeline.find(recipe, {"transfer"}).get<TransferProduct>("transfer");
-  if (!transfer || transfer->transfer.bands != bands ||
-      (transfer->transfer.form != TransferForm::Matrix &&
-       transfer->transfer.form != TransferForm::Visibility))
-    return {};
-  return transferredRadiance(transfer->transfer, lightFor(lights, bands, recipe.method));
+/// The transfer that the project holds, where a patch can be lit by it: at vertices, with directions.
+std::shared_ptr<const TransferProduct> transferFor(Pipeline& pipeline, const Recipe& recipe,
+                                                   const SampleSet& samples, int bands) {
+  const auto found = pipeline.find(recipe, {"transfer"}).get<TransferProduct>("transfer");
+  const bool serves = found && samples.vertices > 0 && found->transfer.form != TransferForm::Diffuse;
+  if (serves) return found;
+  Transfer none;
+  none.bands = bands;
+  return std::make_shared<TransferProduct>(std::move(none));
 }
 
 void drawSurface(Session& session, const Options& options, Pipeline& pipeline, const Recipe& recipe,
                  const fs::path& folder, const Laid& laid) {
-  if (!laid.idmap || !laid.idmap->map || !laid.atlas)
-    throw ValueError("holds no id map", options.view.project, "run prt bake --stage idmap");
-  const TriMesh& mesh = laid.scene->scene->mesh;
+  const auto patch = prt::laidPatch(laid.products, recipe);
+  if (!patch) throw ValueError("holds no id map", options.view.project, "run prt bake --stage idmap");
+  const TriMesh& mesh = patch->scene->mesh;
   const View view = viewOf(options.view, recipe, folder, mesh.bounds());
-  PatchLook look{mesh, laid.frames->frames, *laid.atlas->atlas, *laid.idmap->map};
-  std::vector<Rgb> incident;
-  if (!options.ids) {
-    look.rtt = laid.rtt->rtt.get();
-    look.light = lightFor(view.lights, look.rtt->bands, recipe.method);
-    incident = incidentLight(pipeline, recipe, view.lights, look.rtt->bands);
-    incident.resize(std::min(incident.size(), mesh.vertexCount() * std::size_t(look.rtt->functions())));
-    look.incident = incident;
-  }
-  writePicture(options.view.output, patchLook(look, view.camera, view.width, view.height, 2, session.job()),
-               options.view.exposure);
+  const auto picture = [&]() -> Image {
+    if (options.ids)
+      return patchColours(mesh, *patch->cover, view.camera, view.width, view.height, 2, session.job());
+    const SampleSet& samples = *laid.products.get<SamplesProduct>("samples")->samples;
+    const auto baked = transferFor(pipeline, recipe, samples, patch->responses->bands());
+    const Transfer& transfer = baked->transfer;
+    const ShRgb light = lightFor(view.lights, transfer.bands, recipe.method);
+    return renderBiscale({*patch, samples, transfer, light, nullptr, recipe.method.viewDependent},
+                         view.camera, view.width, view.height, 2, session.job());
+  };
+  writePicture(options.view.output, picture(), options.view.exposure);
   session.say("wrote " + options.view.output);
 }
 
@@ -98,11 +93,13 @@ nlohmann::json describe(Session& session, const Options& options, const Recipe& 
       fmt::format("distance {:.3f} (1 = unrelated), coherence {:.1f} %, longest repeat {:.1f} patches",
                   s.quality.distance, 100 * s.quality.coherence, s.quality.longestRepeat));
   if (!options.quality) return json;
-  const SynthesisQuality q = qualityOf(s, laid.scene->scene->mesh, laid.frames->frames, *laid.rtt->rtt,
-                                       symmetryOf(resolved(recipe).field),
-                                       laid.atlas ? std::span<const std::uint32_t>(laid.atlas->atlas->chartOf)
-                                                  : std::span<const std::uint32_t>{},
-                                       session.job());
+  const auto atlas = laid.products.get<AtlasProduct>("atlas");
+  const SynthesisQuality q = qualityOf(
+      s, laid.products.get<SceneProduct>("scene")->scene->mesh,
+      laid.products.get<FramesProduct>("frames")->frames, *laid.products.get<RttProduct>("rtt")->rtt,
+      symmetryOf(resolved(recipe).field),
+      atlas ? std::span<const std::uint32_t>(atlas->atlas->chartOf) : std::span<const std::uint32_t>{},
+      session.job());
   json["inside"] = q.inside, json["across"] = q.across;
   session.say(fmt::format("distance inside charts {:.4f}, across their borders {:.4f}", q.inside, q.across));
   return json;

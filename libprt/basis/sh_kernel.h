@@ -6,6 +6,7 @@
 #include "libprt/basis/sh.h"
 
 #include <array>
+#include <cstring>
 #include <utility>
 
 namespace prt::sh_kernel {
@@ -132,6 +133,19 @@ inline void evaluate(int bands, V x, V y, V z, V scale, Emit emit) {
 
 inline constexpr int kLanes = 8;
 using Lanes [[gnu::vector_size(4 * kLanes)]] = float;
+
+inline Lanes load(const float* from) {
+  Lanes v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+inline void store(const Lanes& v, float* to) {
+  std::memcpy(to, &v, sizeof v);
+}
+/// In an order of its own: pairs, then pairs of these.
+inline float sum(const Lanes& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
 
 /// Rows become columns.
 inline void transpose(std::array<Lanes, kLanes>& r) {

@@ -4,6 +4,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/log.h"
 #include "libprt/project/hand_cuts.h"
+#include "libprt/project/product_rows.h"
 #include "libprt/project/products.h"
 
 #include <fmt/format.h>
@@ -14,46 +15,6 @@
 
 namespace prt {
 namespace {
-
-[[noreturn]] void unfit(const char* stage) {
-  throw FileError(std::string("the arrays of stage ") + stage + " do not fit together", "project",
-                  "bake again");
-}
-
-template <class V>
-Array rowsOf(const std::vector<V>& vectors) {
-  using T = typename V::value_type;
-  const T* first = vectors.empty() ? nullptr : &vectors[0][0];
-  return Array::from<T>(std::span(first, vectors.size() * std::size_t(V::length())),
-                        {std::int64_t(vectors.size()), V::length()});
-}
-
-template <class T>
-Array listOf(const std::vector<T>& values) {
-  return Array::from<T>(std::span(values), {std::int64_t(values.size())});
-}
-
-template <class V>
-std::vector<V> readRows(const ProductData& data, const char* name, const char* stage) {
-  using T = typename V::value_type;
-  const Array& array = data.array(name, dtypeOf<T>(), 2);
-  if (array.shape[1] != V::length()) unfit(stage);
-  std::vector<V> out(std::size_t(array.shape[0]));
-  if (!out.empty()) std::memcpy(out.data(), array.bytes.data(), array.bytes.size());
-  return out;
-}
-
-template <class T>
-std::vector<T> readList(const ProductData& data, const char* name) {
-  const auto values = data.array(name, dtypeOf<T>(), 1).template as<T>();
-  return {values.begin(), values.end()};
-}
-
-double numberOf(const nlohmann::json& meta, const char* name, const char* stage) {
-  const auto found = meta.is_object() ? meta.find(name) : meta.end();
-  if (!meta.is_object() || found == meta.end() || !found->is_number()) unfit(stage);
-  return found->get<double>();
-}
 
 /// Charts that were put by hand must not lie over others or leave the square.
 void checkPlaces(const FlatCharts& charts, const Atlas& atlas) {

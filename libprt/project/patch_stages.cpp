@@ -7,6 +7,7 @@
 #include "libprt/meso/rtt_seam.h"
 #include "libprt/meso/rtt_storage.h"
 #include "libprt/project/pipeline.h"
+#include "libprt/project/product_rows.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,29 +17,6 @@ namespace prt {
 namespace {
 
 using nlohmann::json;
-
-[[noreturn]] void unfit(const char* stage) {
-  throw FileError(std::string("the arrays of stage ") + stage + " do not fit together", "project",
-                  "bake again");
-}
-
-template <class V>
-Array rows(const std::vector<V>& vectors) {
-  using T = typename V::value_type;
-  const T* first = vectors.empty() ? nullptr : &vectors[0][0];
-  return Array::from<T>(std::span(first, vectors.size() * std::size_t(V::length())),
-                        {std::int64_t(vectors.size()), V::length()});
-}
-
-template <class V>
-std::vector<V> vectors(const ProductData& data, const std::string& name) {
-  const Array& array = data.array(name, dtypeOf<typename V::value_type>(), 2);
-  if (array.shape[1] != V::length()) unfit("patch");
-  std::vector<V> out(std::size_t(array.shape[0]));
-  if (array.bytes.size() != out.size() * sizeof(V)) unfit("patch");
-  if (!out.empty()) std::memcpy(out.data(), array.bytes.data(), array.bytes.size());
-  return out;
-}
 
 void putTexture(ProductData& data, const std::string& name, const PatchTexture& texture) {
   if (texture)
@@ -128,10 +106,10 @@ ProductData PatchProduct::save() const {
                   {"high", patch->high},
                   {"backed", patch->backed}};
   ProductData data{meta.dump(), {}};
-  data.arrays["positions"] = rows(patch->mesh.positions);
-  data.arrays["normals"] = rows(patch->mesh.normals);
-  data.arrays["triangles"] = rows(patch->mesh.triangles);
-  data.arrays["albedo"] = rows(patch->albedo);
+  data.arrays["positions"] = rowsOf(patch->mesh.positions);
+  data.arrays["normals"] = rowsOf(patch->mesh.normals);
+  data.arrays["triangles"] = rowsOf(patch->mesh.triangles);
+  data.arrays["albedo"] = rowsOf(patch->albedo);
   data.arrays["twin"] = Array::from<std::uint32_t>(std::span<const std::uint32_t>(patch->twin),
                                                    {std::int64_t(patch->twin.size())});
   putTexture(data, "texture", patch->albedoTexture);
@@ -148,10 +126,10 @@ ProductPtr PatchProduct::load(ProductData data) {
   patch.exponent = float(number(meta, "exponent", 1, 10000));
   patch.low = float(number(meta, "low", -200, 200)), patch.high = float(number(meta, "high", -200, 200));
   patch.backed = meta.value("backed", json(false)) == json(true);
-  patch.mesh.positions = vectors<Vec3>(data, "positions");
-  patch.mesh.normals = vectors<Vec3>(data, "normals");
-  patch.mesh.triangles = vectors<UVec3>(data, "triangles");
-  patch.albedo = vectors<Rgb>(data, "albedo");
+  patch.mesh.positions = readRows<Vec3>(data, "positions", "patch");
+  patch.mesh.normals = readRows<Vec3>(data, "normals", "patch");
+  patch.mesh.triangles = readRows<UVec3>(data, "triangles", "patch");
+  patch.albedo = readRows<Rgb>(data, "albedo", "patch");
   const auto twin = data.array("twin", DType::u32, 1).as<std::uint32_t>();
   patch.twin.assign(twin.begin(), twin.end());
   patch.albedoTexture = takeTexture(data, "texture");

@@ -1,6 +1,7 @@
 #include "libprt/project/products.h"
 
 #include "libprt/core/error.h"
+#include "libprt/project/product_rows.h"
 
 #include <nlohmann/json.hpp>
 
@@ -90,10 +91,6 @@ void put(ProductData& data, const std::string& name, const Array& array) {
 Array take(ProductData& data, const std::string& name) {
   const auto found = data.arrays.find(name);
   return found == data.arrays.end() ? Array{} : std::move(found->second);
-}
-
-[[noreturn]] void unfit(const std::string& stage) {
-  throw FileError("the arrays of stage " + stage + " do not fit together", "project", "bake again");
 }
 
 /// Throws unless the array is float (or half where allowed) and of this shape.

@@ -3,6 +3,7 @@
 #include "libprt/core/error.h"
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/patch_stages.h"
+#include "libprt/project/product_rows.h"
 #include "libprt/project/products.h"
 
 #include <nlohmann/json.hpp>
@@ -16,37 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int kPreviewSize = 512;
-
-[[noreturn]] void unfit(const char* stage) {
-  throw FileError(std::string("the arrays of stage ") + stage + " do not fit together", "project",
-                  "bake again");
-}
-
-template <class V>
-Array rowsOf(const std::vector<V>& vectors) {
-  using T = typename V::value_type;
-  const T* first = vectors.empty() ? nullptr : &vectors[0][0];
-  return Array::from<T>(std::span(first, vectors.size() * std::size_t(V::length())),
-                        {std::int64_t(vectors.size()), V::length()});
-}
-
-template <class V>
-std::vector<V> readRows(const ProductData& data, const char* name, const char* stage) {
-  const Array& array = data.array(name, dtypeOf<typename V::value_type>(), 2);
-  if (array.shape[1] != V::length()) unfit(stage);
-  std::vector<V> out(std::size_t(array.shape[0]));
-  if (array.bytes.size() != out.size() * sizeof(V)) unfit(stage);
-  if (!out.empty()) std::memcpy(out.data(), array.bytes.data(), array.bytes.size());
-  return out;
-}
-
-double number(const json& meta, const char* name, const char* stage) {
-  const auto found = meta.is_object() ? meta.find(name) : meta.end();
-  if (!meta.is_object() || found == meta.end() || !found->is_number()) unfit(stage);
-  const double value = found->get<double>();
-  if (!std::isfinite(value)) unfit(stage);
-  return value;
-}
 
 bool allFinite(const std::vector<Vec3>& vectors) {
   return std::all_of(vectors.begin(), vectors.end(), isFinite);
@@ -203,11 +173,11 @@ ProductPtr SynthesisProduct::load(ProductData data) {
   const char* stage = "synthesis";
   const json meta = json::parse(data.meta, nullptr, false);
   MesoMesh meso;
-  meso.edge = number(meta, "edge", stage);
-  product->patchWidth = number(meta, "patchWidth", stage);
-  product->quality.distance = product->quality.inside = number(meta, "distance", stage);
-  product->quality.coherence = number(meta, "coherence", stage);
-  product->quality.longestRepeat = number(meta, "longestRepeat", stage);
+  meso.edge = numberOf(meta, "edge", stage);
+  product->patchWidth = numberOf(meta, "patchWidth", stage);
+  product->quality.distance = product->quality.inside = numberOf(meta, "distance", stage);
+  product->quality.coherence = numberOf(meta, "coherence", stage);
+  product->quality.longestRepeat = numberOf(meta, "longestRepeat", stage);
   const auto triangle = data.array("triangle", DType::u32, 1).as<std::uint32_t>();
   meso.triangle.assign(triangle.begin(), triangle.end());
   meso.barycentric = readRows<Vec2>(data, "barycentric", stage);

@@ -1,8 +1,7 @@
 #include "libprt/shade/background.h"
 
 #include "libprt/core/parallel.h"
-
-#include <algorithm>
+#include "libprt/shade/sound.h"
 
 namespace prt {
 namespace {
@@ -26,11 +25,8 @@ void addBackground(const LightRig& rig, const Camera& camera, int grid, Image& i
       for (int x = 0; x < image.width; ++x) {
         float* to = image.pixel(x, int(y));
         if (!(to[3] < 1)) continue;
-        const Rgb light = behind(rig, rays, x, int(y), grid);
-        for (int c = 0; c < 3; ++c) {
-          const float v = light[c];
-          to[c] += (1 - to[3]) * (v > 0 ? std::min(v, 3e38f) : 0.0f);  // NaN gives 0
-        }
+        const Rgb light = (1 - to[3]) * sound(behind(rig, rays, x, int(y), grid));
+        for (int c = 0; c < 3; ++c) to[c] += light[c];
         to[3] = 1;
       }
     }

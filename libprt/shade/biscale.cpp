@@ -5,11 +5,11 @@
 #include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
 #include "libprt/shade/background.h"
+#include "libprt/shade/sound.h"
 #include "libprt/shade/surface_light.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #ifdef __F16C__
 #include <immintrin.h>
@@ -20,14 +20,10 @@ namespace {
 
 using sh_kernel::kLanes;
 using sh_kernel::Lanes;
+using sh_kernel::load;
+using sh_kernel::sum;
 
 constexpr std::size_t kMaxFunctions = 100;
-
-Lanes load(const float* from) {
-  Lanes v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
 
 Lanes loadHalfs(const std::uint16_t* from) {
 #ifdef __F16C__
@@ -37,14 +33,6 @@ Lanes loadHalfs(const std::uint16_t* from) {
   for (int i = 0; i < kLanes; ++i) v[i] = fromHalf(from[i]);
   return v;
 #endif
-}
-
-float sum(const Lanes& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
-
-float sound(float v) {
-  return v > 0 ? std::min(v, 3e38f) : 0.0f;  // NaN gives 0
 }
 
 /// Turns of eight frames side by side.
@@ -137,8 +125,7 @@ Rgb shadeBiscale(const BiscaleFragment& f, const BiscaleLight& light, const Resp
                  (f.weight.x * load(x[0] + at) + f.weight.y * load(x[1] + at) + f.weight.z * load(x[2] + at));
     }
   }
-  const Rgb exit = responses.colour() * Rgb(sum(dots[0]), sum(dots[1]), sum(dots[2]));
-  return {sound(exit.x), sound(exit.y), sound(exit.z)};
+  return sound(responses.colour() * Rgb(sum(dots[0]), sum(dots[1]), sum(dots[2])));
 }
 
 Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, int height, int grid,

@@ -1,7 +1,6 @@
 #include "libprt/shade/biscale_view.h"
 
 #include "libprt/core/parallel.h"
-#include "libprt/shade/raster.h"
 #include "libprt/synthesis/orientation_field.h"
 #include "libprt/synthesis/surface_point.h"
 
@@ -20,20 +19,9 @@ class Maker {
         used_(surface.shading.size(), 0) {}
 
   void fill(const FragmentTile& seen, BiscaleTile& tile) {
-    tile.x = seen.x, tile.y = seen.y, tile.width = seen.width, tile.height = seen.height;
-    const float part = 1.0f / float(options_.grid * options_.grid);
-    const std::size_t pixels = std::size_t(seen.width) * std::size_t(seen.height);
-    tile.open.resize(pixels);
     tile.fragments.reserve(seen.fragments.size());
-    for (std::size_t p = 0; p < pixels; ++p) {
-      float covered = 0;
-      for (const Fragment& f : seen.pixel(p)) {
-        const float share = float(f.samples) * part;
-        covered += share;
-        add(f, std::uint32_t(p), share, tile);
-      }
-      tile.open[p] = covered < 1 - 0.5f * part ? 1 - covered : 0;
-    }
+    coverTile(tile, seen, options_.grid,
+              [&](const Fragment& f, std::uint32_t pixel, float share) { add(f, pixel, share, tile); });
   }
 
   /// Frames that are seen get consecutive places.

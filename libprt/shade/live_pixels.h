@@ -5,6 +5,7 @@
 #include "libprt/shade/display_table.h"
 #include "libprt/shade/ground_grid.h"
 #include "libprt/shade/live_background.h"
+#include "libprt/shade/raster.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,6 +23,23 @@ struct PixelTile {
   int width = 0, height = 0;
   std::vector<float> open;  ///< [width * height] share of each pixel that shows the background
 };
+
+/// Sets the tile's place and open shares, and calls add(fragment, pixel, share) for every fragment of it.
+template <class Add>
+void coverTile(PixelTile& tile, const FragmentTile& seen, int grid, const Add& add) {
+  tile.x = seen.x, tile.y = seen.y, tile.width = seen.width, tile.height = seen.height;
+  const float part = 1.0f / float(grid * grid);
+  tile.open.resize(std::size_t(seen.width) * std::size_t(seen.height));
+  for (std::size_t p = 0; p < tile.open.size(); ++p) {
+    float covered = 0;
+    for (const Fragment& f : seen.pixel(p)) {
+      const float share = float(f.samples) * part;
+      covered += share;
+      add(f, std::uint32_t(p), share);
+    }
+    tile.open[p] = covered < 1 - 0.5f * part ? 1 - covered : 0;
+  }
+}
 
 /// Sums what the screen shows of a tile's pixels; values 0..255.
 struct LiveSums {

@@ -73,26 +73,18 @@ void LiveRenderer::followLight(const LiveScene& scene, Job& job) {
   lightKey_.reset();
   Transfer unshadowed;
   unshadowed.bands = scene.light.bands;
+  const SampleSet none;
   const Transfer& transfer = baked ? *scene.transfer : unshadowed;
-  if (baked && transfer.form != TransferForm::None &&
-      (transfer.samples != scene.samples->size() ||
-       (!view_.samples.empty() && view_.samples.back() >= transfer.samples)))
-    throw ValueError("transfer was baked for another scene", "renderer", "bake the scene again");
-  const SampleSet none;
-  light_ = LiveLight(surfaceLight(transfer, scene.light, baked ? *scene.samples : none, view_.samples), job);
-  lightKey_ = std::move(key);
-}
-
-void LiveRenderer::followPatchLight(const LiveScene& scene, Job& job) {
-  const bool baked = scene.transfer && scene.samples;
-  LightKey key{baked ? scene.transfer : nullptr, scene.light.c, viewNumber_};
-  if (lightKey_ == key) return;
-  lightKey_.reset();
-  Transfer unshadowed;
-  unshadowed.bands = scene.light.bands;
-  const SampleSet none;
-  patchLight_ = BiscaleLight(*scene.patch, patchView_.frames, baked ? *scene.samples : none,
-                             baked ? *scene.transfer : unshadowed, scene.light, job);
+  const SampleSet& samples = baked ? *scene.samples : none;
+  if (scene.patch) {
+    patchLight_ = BiscaleLight(*scene.patch, patchView_.frames, samples, transfer, scene.light, job);
+  } else {
+    if (transfer.form != TransferForm::None &&
+        (transfer.samples != samples.size() ||
+         (!view_.samples.empty() && view_.samples.back() >= transfer.samples)))
+      throw ValueError("transfer was baked for another scene", "renderer", "bake the scene again");
+    light_ = LiveLight(surfaceLight(transfer, scene.light, samples, view_.samples), job);
+  }
   lightKey_ = std::move(key);
 }
 
@@ -102,12 +94,9 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
     throw ValueError("the picture's memory has another size than the picture", "renderer", {});
   followView(scene, picture, job);
   const bool patch = scene.scene && scene.patch;
-  if (patch) {
-    followPatchLight(scene, job);
-  } else if (scene.scene) {
-    followLight(scene, job);
+  if (scene.scene) followLight(scene, job);
+  if (scene.scene && !patch)
     materials_.set(scene.materials, light_.bands(), light_.form() != TransferForm::Diffuse);
-  }
   if (!display_ || display_->tone().exposure != picture.tone.exposure ||
       display_->tone().curve != picture.tone.curve)
     display_.emplace(picture.tone);

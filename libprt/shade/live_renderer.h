@@ -65,7 +65,6 @@ class LiveRenderer {
  private:
   void followView(const LiveScene& scene, const LivePicture& picture, Job& job);
   void followLight(const LiveScene& scene, Job& job);
-  void followPatchLight(const LiveScene& scene, Job& job);
 
   // What the view was made from, and the light.
   struct ViewKey {

@@ -2,15 +2,18 @@
 
 #include "libprt/basis/sh_kernel.h"
 #include "libprt/core/parallel.h"
+#include "libprt/shade/sound.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace prt {
 namespace {
 
 using sh_kernel::Lanes;
+using sh_kernel::load;
+using sh_kernel::store;
+using sh_kernel::sum;
 static_assert(kLiveLanes == sh_kernel::kLanes);
 
 constexpr int kMaxBands = 10;
@@ -18,19 +21,6 @@ constexpr std::size_t kMaxPadded = 104;  // functions of ten bands and zeros up 
 
 constexpr std::size_t paddedCount(int bands) {
   return (std::size_t(shCount(bands)) + kLiveLanes - 1) / kLiveLanes * kLiveLanes;
-}
-
-Lanes load(const float* from) {
-  Lanes v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-void store(const Lanes& v, float* to) {
-  std::memcpy(to, &v, sizeof v);
-}
-
-float sum(const Lanes& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
 /// View angle of a table's row.
@@ -131,10 +121,6 @@ void gloss(const LiveTile& tile, std::size_t first, const std::array<const float
   }
   byFragment(response.data(), padded, out);
 }
-
-float sound(float v) {
-  return v > 0 ? std::min(v, 3e38f) : 0.0f;
-}  // NaN gives 0
 
 /// What the surface reflects apart from its radiance, between the samples around a fragment.
 Rgb reflectedAt(const LiveTile& tile, std::size_t fragment, int around, const LiveLight& light) {

@@ -1,7 +1,6 @@
 #include "libprt/shade/live_view.h"
 
 #include "libprt/core/parallel.h"
-#include "libprt/shade/raster.h"
 
 #include <atomic>
 
@@ -47,20 +46,10 @@ struct Maker {
     return side * (length(face) > 0 ? normalize(face) : Vec3(0, 0, 1));
   }
 
-  void fill(const FragmentTile& seen, float part, LiveTile& tile) {
-    tile.x = seen.x, tile.y = seen.y, tile.width = seen.width, tile.height = seen.height;
-    const std::size_t pixels = std::size_t(seen.width) * std::size_t(seen.height);
-    tile.open.resize(pixels);
+  void fill(const FragmentTile& seen, int grid, LiveTile& tile) {
     reserve(tile, seen.fragments.size() + kLiveLanes);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      float covered = 0;
-      for (const Fragment& f : seen.pixel(p)) {
-        const float share = float(f.samples) * part;
-        covered += share;
-        add(f, std::uint32_t(p), share, tile);
-      }
-      tile.open[p] = covered < 1 - 0.5f * part ? 1 - covered : 0;
-    }
+    coverTile(tile, seen, grid,
+              [&](const Fragment& f, std::uint32_t pixel, float share) { add(f, pixel, share, tile); });
     tile.count = tile.pixel.size();
     while (tile.pixel.size() % kLiveLanes != 0) repeatLast(tile);
   }
@@ -95,12 +84,11 @@ LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::
   LiveView view;
   view.around = surface.around();
   view.tiles.resize(rasterizer.tileCount());
-  const float part = 1.0f / float(grid * grid);
   parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
     thread_local SampleTile samples;
     thread_local FragmentTile fragments;
     rasterizer.drawFragments(t, samples, fragments);
-    maker.fill(fragments, part, view.tiles[t]);
+    maker.fill(fragments, grid, view.tiles[t]);
   });
 
   // Samples that are seen get consecutive places.

@@ -4,6 +4,7 @@
 #include "libprt/core/parallel.h"
 #include "libprt/material/glossy_response.h"
 #include "libprt/shade/background.h"
+#include "libprt/shade/sound.h"
 #include "libprt/shade/surface_light.h"
 
 #include <algorithm>
@@ -137,12 +138,6 @@ struct PixelResponse {
     return rest + s.material->albedo * lambertRadiance(bands, normal, light);
   }
 };
-
-/// Clamped to what a picture may hold.
-Rgb sound(const Rgb& c) {
-  const auto one = [](float v) { return v > 0 ? std::min(v, 3e38f) : 0.0f; };  // NaN gives 0
-  return {one(c.x), one(c.y), one(c.z)};
-}
 
 template <class Shader>
 Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera,

@@ -2,14 +2,9 @@
 // transfer texture, synthesis, id map, transfer matrices, picture. (The paper: about 8 hours.)
 
 #include "libprt/core/parallel.h"
-#include "libprt/light/light_rig.h"
-#include "libprt/project/atlas_stages.h"
+#include "libprt/project/laid_patch.h"
 #include "libprt/project/lights.h"
-#include "libprt/project/patch_stages.h"
-#include "libprt/project/pipeline.h"
-#include "libprt/project/products.h"
-#include "libprt/project/synthesis_stages.h"
-#include "libprt/shade/patch_look.h"
+#include "libprt/project/relight.h"
 #include "libprt/study/bench_list.h"
 
 #include <chrono>
@@ -37,17 +32,11 @@ class StageTimes : public PipelineListener {
 
 /// The first frame: 512 x 512 as the paper's.
 Image firstFrame(const Recipe& recipe, const Products& products, Job& job) {
-  const TriMesh& mesh = products.get<SceneProduct>("scene")->scene->mesh;
-  const Transfer& transfer = products.get<TransferProduct>("transfer")->transfer;
-  const Rtt& rtt = *products.get<RttProduct>("rtt")->rtt;
+  BakedScene baked = bakedScene(products);
+  baked.patch = laidPatch(products, recipe);
   EnvironmentCache environments;
-  const LightRig lights = makeLightRig(recipe.lights, ".", environments);
-  std::vector<Rgb> incident = transferredRadiance(transfer, lightFor(lights, rtt.bands, recipe.method));
-  incident.resize(mesh.vertexCount() * std::size_t(rtt.functions()));
-  PatchLook look{mesh, products.get<FramesProduct>("frames")->frames,
-                 *products.get<AtlasProduct>("atlas")->atlas, *products.get<IdMapProduct>("idmap")->map};
-  look.rtt = &rtt, look.incident = incident;
-  return patchLook(look, frameBox(mesh.bounds()), 512, 512, 2, job);
+  return relight(baked, recipe, makeLightRig(recipe.lights, ".", environments),
+                 frameBox(baked.geometry->scene->mesh.bounds()), {512, 512, 2}, job);
 }
 
 }  // namespace
@@ -57,6 +46,7 @@ Recipe pipelineBenchRecipe(const std::string& mesh) {
   recipe.objects[0].mesh.path = mesh;
   recipe.patch.model = PatchModel::Weave;
   recipe.transfer.kind = TransferKind::Matrix;
+  recipe.method.name = "biscale";
   return recipe;
 }
 
@@ -68,7 +58,8 @@ BenchResult runPipelineBench(const Recipe& recipe, Job& job) {
   Image frame;
   Products products;
   const double seconds = secondsOf([&] {
-    products = pipeline.run(recipe, {"rtt", "idmap", "atlas", "frames", "transfer"}, inner.job, &times);
+    products =
+        pipeline.run(recipe, {"rtt", "idmap", "atlas", "frames", "samples", "transfer"}, inner.job, &times);
     times.seconds["seconds_frame"] = secondsOf([&] { frame = firstFrame(recipe, products, inner.job); });
   });
   job.advance(1);

@@ -3,7 +3,6 @@
 
 #include "libprt/core/file.h"
 #include "libprt/core/image_io.h"
-#include "libprt/project/atlas_stages.h"
 #include "libprt/project/export_synthesis.h"
 #include "libprt/project/laid_patch.h"
 #include "libprt/project/lights.h"
@@ -99,15 +98,14 @@ nlohmann::json makeBiscale6(const std::filesystem::path& folder, Job& job) {
     write(folder / look.file, relight(baked, recipe, lamp(), camera, {kWidth, kHeight, 2}, job));
     keep(0, look.file, look.text);
   }
-  const Scene& scene = *products.get<SceneProduct>("scene")->scene;
-  const IdMap& map = *products.get<IdMapProduct>("idmap")->map;
+  const auto patch = laidPatch(products, recipe);
+  const TriMesh& mesh = patch->scene->mesh;
   ImageWriteOptions encoded;
   encoded.alreadySrgb = true;
-  writeImage(folder / "id_map.png", idMapPicture(map), encoded);
+  writeImage(folder / "id_map.png", idMapPicture(*products.get<IdMapProduct>("idmap")->map), encoded);
   keep(1, "id_map.png", "id map: places in the patch, u in red, v in green");
-  write(folder / "ids.png", patchLook({scene.mesh, products.get<FramesProduct>("frames")->frames,
-                                       *products.get<AtlasProduct>("atlas")->atlas, map},
-                                      cameraOf(scene.mesh.bounds()), kWidth, kHeight, 2, job));
+  write(folder / "ids.png",
+        patchColours(mesh, *patch->cover, cameraOf(mesh.bounds()), kWidth, kHeight, 2, job));
   keep(1, "ids.png", "the same on the surface");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   char intro[200];

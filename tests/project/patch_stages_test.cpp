@@ -130,17 +130,33 @@ TEST(PatchStages, ReadsHeightMapsAndNamesWhatIsWrong) {
   EXPECT_THROW(bake(recipe, nullptr, nullptr, folder.path()), ValueError);
 }
 
+/// Pictures of a flat patch in a folder, changed on the way; returns the patch.
+PatchScene writeFlatBtf(const std::filesystem::path& folder, const RttSettings& settings,
+                        const std::function<void(BtfView&)>& change = {}) {
+  Job job;
+  const LightSet lights = lightGrid(4, 8);
+  PatchScene patch =
+      makePatchScene(std::make_shared<Patch>(buildPatch(small(PatchModel::Flat).patch, {}, job)), job);
+  BtfWriter writer(folder, lights);
+  renderBtf(patch, settings, lights, job, [&](BtfView view) {
+    if (change) change(view);
+    writer.add(view, job);
+  });
+  writer.finish();
+  return patch;
+}
+
+RttSettings fewTexels(int texels) {
+  RttSettings settings;
+  settings.texels = texels, settings.views = 2, settings.rays = 64;
+  return settings;
+}
+
 TEST(PatchStages, ImportsImagesAndSeesWhenTheyChange) {
   const test::TemporaryFolder folder;
   Job job;
-  const LightSet lights = lightGrid(4, 8);
-  const PatchScene patch =
-      makePatchScene(std::make_shared<Patch>(buildPatch(small(PatchModel::Flat).patch, {}, job)), job);
-  RttSettings settings;
-  settings.texels = 4, settings.views = 2, settings.rays = 64;
-  BtfWriter writer(folder.path(), lights);
-  renderBtf(patch, settings, lights, job, [&](const BtfView& view) { writer.add(view, job); });
-  writer.finish();
+  const RttSettings settings = fewTexels(4);
+  const PatchScene patch = writeFlatBtf(folder.path(), settings);
   Recipe recipe = small(PatchModel::Btf);
   EXPECT_THROW(bake(recipe, nullptr, nullptr, folder.path()), ValueError);  // names no set
   recipe.patch.btf = "manifest.json";
@@ -155,22 +171,13 @@ TEST(PatchStages, ImportsImagesAndSeesWhenTheyChange) {
 
 TEST(PatchStages, ASampleThatDoesNotTileIsMadeTo) {
   const test::TemporaryFolder folder;
-  Job job;
-  const LightSet lights = lightGrid(4, 8);
-  const PatchScene patch =
-      makePatchScene(std::make_shared<Patch>(buildPatch(small(PatchModel::Flat).patch, {}, job)), job);
-  RttSettings settings;
-  settings.texels = 16, settings.views = 2, settings.rays = 64;
-  BtfWriter writer(folder.path(), lights);
-  renderBtf(patch, settings, lights, job, [&](BtfView view) {
+  writeFlatBtf(folder.path(), fewTexels(16), [](BtfView& view) {
     const std::size_t numbers = view.lights * std::size_t(view.channels);
     for (std::size_t i = 0; i < view.values.size(); ++i) {
       const std::size_t u = i / numbers % 16, v = i / numbers / 16;
       view.values[i] *= 1 + float(u) / 16 + 0.1f * float((u + v) % 2);  // brighter towards +u, with a grain
     }
-    writer.add(view, job);
   });
-  writer.finish();
   Recipe recipe = small(PatchModel::Btf);
   recipe.patch.btf = "manifest.json";
   recipe.rtt.texels = 16;

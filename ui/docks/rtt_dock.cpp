@@ -1,6 +1,6 @@
 #include "ui/docks/rtt_dock.h"
 
-#include "ui/docks/jobs_dock.h"
+#include "ui/docks/bake_footer.h"
 #include "ui/model/session.h"
 #include "ui/widgets/property_row.h"
 #include "ui/widgets/rtt_square.h"
@@ -8,9 +8,6 @@
 #include "ui/widgets/view_grid.h"
 
 #include <QLabel>
-#include <QLocale>
-#include <QProgressBar>
-#include <QPushButton>
 
 #include <cmath>
 
@@ -23,9 +20,8 @@ RttDock::RttDock(Session& session, QWidget* parent)
       square_(new Section(tr("Under this light"))),
       views_(new Section(tr("Views"))),
       viewText_(new QLabel),
-      state_(new QLabel),
-      bar_(new QProgressBar),
-      button_(new QPushButton) {
+      footer_(
+          new BakeFooter(session, QStringLiteral("rtt"), {QStringLiteral("patch"), QStringLiteral("rtt")})) {
   square_->add(new RttSquare(look_, session_.view()));
   setRole(viewText_, "muted");
   square_->add(viewText_);
@@ -51,37 +47,13 @@ Section* RttDock::makeBake() {
     section->add(
         new PropertyRow(session_.document(), QLatin1String(path), longName ? tr("Samples") : QString()));
   }
-  bar_->setObjectName(QStringLiteral("rttProgress"));
-  bar_->setTextVisible(false);
-  bar_->setFixedHeight(kGrid);
-  section->add(bar_);
-  state_->setObjectName(QStringLiteral("rttState"));
-  setRole(state_, "muted");
-  state_->setWordWrap(true);
-  section->add(state_);
-  button_->setObjectName(QStringLiteral("rttBake"));
-  button_->setToolTip(tr("Bake everything that is out of date; while it bakes: stop, keeping what is done."));
-  connect(button_, &QPushButton::clicked, &session_.bakes(), &BakeController::bakeOrCancel);
-  section->add(button_);
+  section->add(footer_);
   return section;
-}
-
-ProductStatus RttDock::status() const {
-  return session_.bakes().worstStatus({QStringLiteral("patch"), QStringLiteral("rtt")});
-}
-
-const JobInfo* RttDock::ownJob() const {
-  const bool fresh = status() == ProductStatus::Fresh;
-  return session_.bakes().baking() && !fresh ? session_.jobs().find(session_.bakes().job()) : nullptr;
 }
 
 QString RttDock::stateText() const {
   if (session_.document().recipe().patch.model == PatchModel::None)
     return tr("Choose a patch first: it is what is baked here.");
-  if (const JobInfo* job = ownJob()) {
-    const Progress& p = job->progress;
-    return tr("%1 \u00b7 %2").arg(QString::fromStdString(p.phase), progressText(p));
-  }
   const auto& rtt = look_.rtt();
   if (!rtt) return tr("Not baked yet.");
   const double megabytes = double(rtt->values.size() * sizeof(float)) / 1e6;
@@ -108,20 +80,9 @@ QString RttDock::viewErrorText(const Rtt& rtt) const {
 
 void RttDock::refresh() {
   const bool patch = session_.document().recipe().patch.model != PatchModel::None;
-  const bool baking = session_.bakes().baking();
-  const JobInfo* job = ownJob();
-  bar_->setVisible(patch && job);
-  if (job) {
-    bar_->setRange(0, 1000);
-    bar_->setValue(int(std::lround(1000 * job->progress.fraction())));
-  }
   square_->setVisible(patch);
   views_->setVisible(patch);
-  state_->setText(stateText());
-  button_->setVisible(patch);
-  button_->setEnabled(baking || status() != ProductStatus::Fresh);
-  button_->setText(baking ? tr("Cancel") : tr("Bake"));
-  button_->setIcon(icon(baking ? QStringLiteral("process-stop") : QStringLiteral("run-build")));
+  footer_->refresh(patch, stateText());
   const Vec3& d = look_.view();
   viewText_->setText(tr("From %1\u00b0 off the zenith, towards %2\u00b0")
                          .arg(std::acos(double(d.z)) * 180 / M_PI, 0, 'f', 0)

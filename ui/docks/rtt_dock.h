@@ -6,11 +6,10 @@
 #include "ui/widgets/section.h"
 
 class QLabel;
-class QProgressBar;
-class QPushButton;
 
 namespace prt::ui {
 
+class BakeFooter;
 class Session;
 
 class RttDock : public DockColumn {
@@ -21,9 +20,6 @@ class RttDock : public DockColumn {
  private:
   Section* makeBake();
   void refresh();
-  /// The bake that runs and makes what this dock shows; null when none does.
-  const JobInfo* ownJob() const;
-  ProductStatus status() const;
   QString stateText() const;
   QString viewErrorText(const Rtt& rtt) const;
 
@@ -32,9 +28,7 @@ class RttDock : public DockColumn {
   Section* square_;
   Section* views_;
   QLabel* viewText_;
-  QLabel* state_;
-  QProgressBar* bar_;
-  QPushButton* button_;
+  BakeFooter* footer_;
 };
 
 }  // namespace prt::ui

@@ -1,6 +1,7 @@
 #include "ui/docks/synthesis_dock.h"
 
-#include "ui/docks/jobs_dock.h"
+#include "libprt/project/laid_patch.h"
+#include "ui/docks/bake_footer.h"
 #include "ui/model/session.h"
 #include "ui/widgets/image_convert.h"
 #include "ui/widgets/property_row.h"
@@ -9,10 +10,6 @@
 #include <QCheckBox>
 #include <QLabel>
 #include <QLocale>
-#include <QProgressBar>
-#include <QPushButton>
-
-#include <cmath>
 
 namespace prt::ui {
 
@@ -22,9 +19,9 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
       look_(session.bakes()),
       shown_(new QCheckBox(tr("Patch on the surface"))),
       map_(new QLabel),
-      state_(new QLabel),
-      bar_(new QProgressBar),
-      button_(new QPushButton) {
+      footer_(new BakeFooter(session, QStringLiteral("synthesis"),
+                             {QStringLiteral("field"), QStringLiteral("charts"), QStringLiteral("atlas"),
+                              QStringLiteral("synthesis"), QStringLiteral("idmap")})) {
   add(makeShown());
   laying_ = makeRows(tr("Laying"),
                      {"synthesis.mapping", "synthesis.scale", "synthesis.repeat", "synthesis.vertices",
@@ -36,7 +33,9 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
   map_->setAlignment(Qt::AlignCenter);
   map_->setToolTip(tr("The place in the patch of every texel of the atlas: u in red, v in green."));
   texture_->add(map_);
-  add(makeResult());
+  auto* result = new Section(tr("Result"));
+  result->add(footer_);
+  add(result);
   connect(&look_, &SynthesisLook::changed, this, &SynthesisDock::refreshResult);
   connect(&session_.bakes(), &BakeController::changed, this, &SynthesisDock::refreshResult);
   connect(&session_.document(), &Document::recipeChanged, this, &SynthesisDock::refresh);
@@ -77,42 +76,10 @@ Section* SynthesisDock::makeRows(const QString& title, const std::vector<const c
   return section;
 }
 
-Section* SynthesisDock::makeResult() {
-  auto* section = new Section(tr("Result"));
-  bar_->setObjectName(QStringLiteral("synthesisProgress"));
-  bar_->setTextVisible(false);
-  bar_->setFixedHeight(kGrid);
-  section->add(bar_);
-  state_->setObjectName(QStringLiteral("synthesisState"));
-  setRole(state_, "muted");
-  state_->setWordWrap(true);
-  section->add(state_);
-  button_->setObjectName(QStringLiteral("synthesisBake"));
-  button_->setToolTip(tr("Bake everything that is out of date; while it bakes: stop, keeping what is done."));
-  connect(button_, &QPushButton::clicked, &session_.bakes(), &BakeController::bakeOrCancel);
-  section->add(button_);
-  return section;
-}
-
-ProductStatus SynthesisDock::status() const {
-  return session_.bakes().worstStatus({QStringLiteral("field"), QStringLiteral("charts"),
-                                       QStringLiteral("atlas"), QStringLiteral("synthesis"),
-                                       QStringLiteral("idmap")});
-}
-
-const JobInfo* SynthesisDock::ownJob() const {
-  const bool fresh = status() == ProductStatus::Fresh;
-  return session_.bakes().baking() && !fresh ? session_.jobs().find(session_.bakes().job()) : nullptr;
-}
-
 QString SynthesisDock::resultText() const {
   const Recipe& recipe = session_.document().recipe();
   if (recipe.patch.model == PatchModel::None) return tr("Choose a patch first: it is what is laid here.");
-  if (recipe.method.name != "biscale") return tr("The surface is shown without the patch.");
-  if (const JobInfo* job = ownJob()) {
-    const Progress& p = job->progress;
-    return tr("%1 \u00b7 %2").arg(QString::fromStdString(p.phase), progressText(p));
-  }
+  if (!showsPatch(recipe)) return tr("The surface is shown without the patch.");
   if (recipe.synthesis.mapping == PatchMapping::Uv) return tr("Laid by the mesh's texture coordinates.");
   const auto& made = look_.synthesis();
   if (!made) return tr("Not grown yet.");
@@ -128,11 +95,11 @@ QString SynthesisDock::resultText() const {
 // Only the rows that the way of laying reads.
 void SynthesisDock::refresh() {
   const Recipe& recipe = session_.document().recipe();
-  const bool patch = recipe.patch.model != PatchModel::None, shown = recipe.method.name == "biscale",
+  const bool patch = recipe.patch.model != PatchModel::None, shown = showsPatch(recipe),
              grown = recipe.synthesis.mapping == PatchMapping::Synthesis;
   shown_->setEnabled(patch);
-  shown_->setChecked(patch && shown);
-  views_->setVisible(patch && shown);
+  shown_->setChecked(shown);
+  views_->setVisible(shown);
   for (PropertyRow* row : grownRows_)
     row->setVisible(grown && (row->path() != u"field.width" || !recipe.field.strokes.empty()));
   for (PropertyRow* row : laidRows_) row->setVisible(!grown);
@@ -142,20 +109,7 @@ void SynthesisDock::refresh() {
 }
 
 void SynthesisDock::refreshResult() {
-  const Recipe& recipe = session_.document().recipe();
-  const bool shown = recipe.patch.model != PatchModel::None && recipe.method.name == "biscale";
-  const bool baking = session_.bakes().baking();
-  const JobInfo* job = ownJob();
-  bar_->setVisible(shown && job);
-  if (job) {
-    bar_->setRange(0, 1000);
-    bar_->setValue(int(std::lround(1000 * job->progress.fraction())));
-  }
-  state_->setText(resultText());
-  button_->setVisible(shown);
-  button_->setEnabled(baking || status() != ProductStatus::Fresh);
-  button_->setText(baking ? tr("Cancel") : tr("Bake"));
-  button_->setIcon(icon(baking ? QStringLiteral("process-stop") : QStringLiteral("run-build")));
+  footer_->refresh(showsPatch(session_.document().recipe()), resultText());
   const Image& map = look_.map();
   map_->setVisible(map.width > 0);
   if (map.width > 0)

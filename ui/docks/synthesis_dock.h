@@ -9,11 +9,10 @@
 
 class QCheckBox;
 class QLabel;
-class QProgressBar;
-class QPushButton;
 
 namespace prt::ui {
 
+class BakeFooter;
 class PropertyRow;
 class Session;
 
@@ -25,13 +24,9 @@ class SynthesisDock : public DockColumn {
  private:
   Section* makeShown();
   Section* makeRows(const QString& title, const std::vector<const char*>& paths);
-  Section* makeResult();
   void refresh();
   void refreshResult();
   QString resultText() const;
-  /// The bake that runs and makes what this dock shows; null when none does.
-  const JobInfo* ownJob() const;
-  ProductStatus status() const;
 
   Session& session_;
   SynthesisLook look_;
@@ -39,9 +34,8 @@ class SynthesisDock : public DockColumn {
   PropertyRow* views_ = nullptr;
   Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr;
   std::vector<PropertyRow*> grownRows_, laidRows_;
-  QLabel *map_, *state_;
-  QProgressBar* bar_;
-  QPushButton* button_;
+  QLabel* map_;
+  BakeFooter* footer_;
 };
 
 }  // namespace prt::ui
