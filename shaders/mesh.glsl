@@ -1,9 +1,7 @@
 // What both mesh shaders share: what comes from the vertices, and what may leave.
 #include "material.glsl"
+#include "sound.glsl"
 
 in vec3 vPosition, vNormal;
 flat in uint vObject;
 layout(location = 0) out vec4 colour;
-
-// Ringing can take radiance below zero; nothing that is not a number reaches the picture.
-vec3 sound(vec3 radiance) { return mix(vec3(0.0), min(radiance, vec3(3e38)), greaterThan(radiance, vec3(0.0))); }

@@ -7,12 +7,7 @@ const int kRowWords = BANDS * kLobeWords;
 layout(std430, binding = 5) readonly buffer Responses { uint responses[]; };
 uniform vec2 lobes[BANDS];  // sine and cosine of each lobe's angle
 
-// Any direction across the normal will do where the viewer looks straight down.
-vec3 someTangent(vec3 n) {
-  float sign = n.z < 0.0 ? -1.0 : 1.0;
-  float a = -1.0 / (sign + n.z);
-  return vec3(1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x);
-}
+#include "tangent.glsl"
 
 void glossyResponse(int table, vec3 normal, vec3 view, out float response[kFunctions]) {
   float cosine = dot(normal, view);

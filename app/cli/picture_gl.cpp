@@ -8,16 +8,23 @@
 namespace prt::cli {
 
 Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
-                const PictureOptions& options) {
+                const PictureOptions& options, Job& job) {
+  const bool patch = recipe.method.name == "biscale";
+  if (patch) expectPatch(baked);
   const gl::HeadlessContext context;
   gl::SceneRenderer renderer;
   Scene scene = withMaterials(*baked.geometry->scene, recipe);
-  if (shadeMethod(recipe.method.name) == ShadeMethod::Diffuse)
+  if (!patch && shadeMethod(recipe.method.name) == ShadeMethod::Diffuse)
     for (Material& material : scene.materials) material.model = MaterialModel::Lambert;
   renderer.setScene(scene, *baked.samples->samples);
   const Transfer& transfer = baked.transfer->transfer;
   const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
-  renderer.setLight(surfaceLight(transfer, light, *baked.samples->samples));
+  if (patch) {
+    renderer.setPatch(baked.patch);
+    renderer.setPatchLight(*baked.samples->samples, transfer, light, job);
+  } else {
+    renderer.setLight(surfaceLight(transfer, light, *baked.samples->samples));
+  }
   gl::Picture picture;
   picture.camera = camera;
   picture.width = options.width;
@@ -29,6 +36,7 @@ Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& l
   picture.environmentIntensity = lights.environment ? lights.intensity : 0;
   picture.circles = lights.circles;
   picture.constant = lights.constant;
+  picture.viewDependent = recipe.method.viewDependent;
   return renderer.render(picture);
 }
 

@@ -5,8 +5,8 @@
 
 namespace prt::cli {
 
-/// Throws ResourceError when the machine has no OpenGL 4.5.
+/// Throws as relight() does, and ResourceError when the machine has no OpenGL 4.5.
 Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
-                const PictureOptions& options);
+                const PictureOptions& options, Job& job);
 
 }  // namespace prt::cli

@@ -42,7 +42,7 @@ void relightProject(Session& session, const Options& options) {
   picture.background = options.view.background;
   const auto begun = std::chrono::steady_clock::now();
   const Image image = options.backend == "gl"
-                          ? relightGl(baked, recipe, view.lights, view.camera, picture)
+                          ? relightGl(baked, recipe, view.lights, view.camera, picture, session.job())
                           : relight(baked, recipe, view.lights, view.camera, picture, session.job());
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   writePicture(options.view.output, image, options.view.exposure);

@@ -31,6 +31,8 @@ void deleteProgram(unsigned id) {
 
 namespace {
 
+constexpr std::size_t kGroup = 16;  // bytes of a buffer texture's texel
+
 GLenum internalFormat(PixelFormat format) {
   switch (format) {
     case PixelFormat::Rgba8:
@@ -160,7 +162,44 @@ Texture Texture::fromImage(const Image& image, Wrap wrap, bool mipmaps) {
   return texture;
 }
 
+Texture Texture::fromPairs(std::span<const std::uint16_t> values, int width, int height) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  Texture texture(id);
+  texture.width_ = width;
+  texture.height_ = height;
+  glTextureStorage2D(id, 1, GL_RG16UI, width, height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_SHORT, values.data());
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
 void Texture::bind(unsigned unit) const {
+  glBindTextureUnit(unit, id_);
+}
+
+BufferTexture BufferTexture::create(Format format) {
+  GLuint id = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+  BufferTexture texture(id);
+  texture.buffer_ = Buffer::create();
+  texture.buffer_.upload(std::span<const std::uint32_t>(), kGroup);  // a name without storage is no buffer
+  glTextureBuffer(id, format == Format::Floats ? GL_RGBA32F : GL_RGBA32UI, texture.buffer_.id());
+  return texture;
+}
+
+void BufferTexture::uploadBytes(const void* data, std::size_t bytes, const char* what) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  if (bytes / kGroup > std::size_t(most))
+    throw ResourceError(std::to_string(bytes / 1000000) + " MB are more than OpenGL takes here", what,
+                        "render with the CPU instead");
+  buffer_.upload(std::span(static_cast<const std::byte*>(data), bytes), kGroup);
+}
+
+void BufferTexture::bind(unsigned unit) const {
   glBindTextureUnit(unit, id_);
 }
 

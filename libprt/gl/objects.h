@@ -5,6 +5,7 @@
 #include "libprt/core/image.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -90,6 +91,8 @@ class Texture : public detail::Handle<detail::deleteTexture> {
   static Texture create2d(int width, int height, PixelFormat format, int samples = 1);
   /// A float image as RGBA32F with linear filtering; `mipmaps` adds the whole chain.
   static Texture fromImage(const Image& image, Wrap wrap, bool mipmaps);
+  /// Two 16-bit unsigned integers a texel, [height][width][2], as they are; the first row is row 0.
+  static Texture fromPairs(std::span<const std::uint16_t> values, int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -99,6 +102,29 @@ class Texture : public detail::Handle<detail::deleteTexture> {
  private:
   using Handle::Handle;
   int width_ = 0, height_ = 0, samples_ = 1;
+};
+
+/// A buffer that shaders read as a texture of groups of four 32-bit numbers: it may be far larger than a
+/// storage block.
+class BufferTexture : public detail::Handle<detail::deleteTexture> {
+ public:
+  enum class Format { Floats, Integers };
+
+  BufferTexture() = default;
+  static BufferTexture create(Format format);
+
+  /// Replaces the contents; bytes beyond the last whole group are left out. Throws ResourceError when they
+  /// are more than the driver takes, naming `what`.
+  template <class T>
+  void upload(std::span<const T> values, const char* what) {
+    uploadBytes(values.data(), values.size_bytes(), what);
+  }
+  void bind(unsigned unit) const;
+
+ private:
+  using Handle::Handle;
+  void uploadBytes(const void* data, std::size_t bytes, const char* what);
+  Buffer buffer_;
 };
 
 /// A render target with one colour texture and, if wanted, a depth texture.

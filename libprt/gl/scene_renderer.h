@@ -5,6 +5,8 @@
 
 #include "libprt/basis/sh.h"
 #include "libprt/core/image.h"
+#include "libprt/gl/biscale_pass.h"
+#include "libprt/gl/mesh_pass.h"
 #include "libprt/gl/objects.h"
 #include "libprt/gl/program.h"
 #include "libprt/light/environment.h"
@@ -16,9 +18,9 @@
 #include "libprt/transport/scene.h"
 
 #include <cstdint>
-#include <map>
+#include <memory>
+#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace prt::gl {
@@ -45,7 +47,8 @@ struct Picture {
   Rgb constant{0};
   /// Between texels, and edges of circles a pixel wide; otherwise piecewise constant, as the map lights.
   bool smoothEnvironment = false;
-  ToneSettings tone = {};  ///< of draw() and renderToned()
+  bool viewDependent = true;  ///< false: a patch looks from everywhere as it does from above
+  ToneSettings tone = {};     ///< of draw() and renderToned()
   float gridSpacing =
       0;  ///< of draw() and renderToned(): lines of the ground grid, see shade/ground_grid.h; 0: none
 };
@@ -79,6 +82,11 @@ class SceneRenderer {
   /// The same light everywhere: no shadows. 1 to 10 bands.
   void setLight(const ShRgb& light);
 
+  /// The patch that the scene carries: it is drawn in place of the mesh and its materials. Null: none.
+  void setPatch(std::shared_ptr<const BiscaleSurface> patch);
+  /// The light on it, see BiscalePass::setLight(); black until there is one.
+  void setPatchLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
+
   /// The map behind the model: lat-long as it is, other mappings resampled to one.
   void setEnvironment(const EnvironmentMap& map);
 
@@ -92,40 +100,20 @@ class SceneRenderer {
   Image renderToned(const Picture& picture);
 
  private:
-  enum class Light { Irradiance, TexelIrradiance, Interpolated, Fetched, TexelRadiance, Everywhere };
-
-  void uploadScene(const Scene& scene, std::span<const std::uint32_t> back, const TexelGrid* texels);
-  void uploadTexels(const TexelGrid& grid);
-  void uploadColours(std::span<const Rgb> perSample);
   void drawRadiance(const Picture& picture, PixelFormat format, int samples);
-  Program& meshProgram();
-  void drawMesh(const Picture& picture);
+  void drawSurface(const Picture& picture);
   void drawBackground(const Picture& picture);
   void drawToned(const Picture& picture, int samples);
-  void useRadiance(Light light, int bands);
-  Program& radianceProgram(Light light, int bands);
-  void uploadResponses();
 
-  Program irradianceProgram_, texelIrradianceProgram_, backgroundProgram_, toneProgram_, meanProgram_;
-  std::map<std::pair<Light, int>, Program> radiancePrograms_;  // made for a number of bands
-  VertexArray meshArray_, emptyArray_;
-  Buffer positions_, normals_, front_, behind_, objects_, indices_;
-  Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_, circles_, colours_, texels_;
+  MeshPass mesh_;
+  std::optional<BiscalePass> patch_;  // made for the first one
+  Program backgroundProgram_, toneProgram_, meanProgram_;
+  VertexArray emptyArray_;
+  Buffer circles_;
   Texture environment_, noEnvironment_;
   Framebuffer radiance_, passes_;
   int passCount_ = 0;  // summed in passes_
   PixelFormat radianceFormat_ = PixelFormat::Rgba16f;
-  std::vector<Material> materials_;
-  std::vector<std::uint32_t> back_;
-  std::vector<Vec2> lobes_;  // of the responses, see GlossyResponse
-  Light light_ = Light::Irradiance;
-  int bands_ = 5;  // of the radiance and the responses
-  bool twoSided_ = false;
-  bool atTexels_ = false;  // where light is known
-  int texelStart_ = 0;     // of the rectangles in texels_
-  int indexCount_ = 0;
-  std::size_t vertexCount_ = 0, sampleCount_ = 0;
-  Box3 bounds_;
 };
 
 }  // namespace prt::gl

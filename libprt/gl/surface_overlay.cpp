@@ -1,6 +1,7 @@
 #include "libprt/gl/surface_overlay.h"
 
 #include "libprt/core/error.h"
+#include "libprt/gl/surface_view.h"
 #include "libprt/shade/color_map.h"
 
 #include <epoxy/gl.h>
@@ -16,26 +17,6 @@ namespace {
 constexpr unsigned kPlacesBinding = 0;
 enum PaintBinding : unsigned { kPositions, kNormals, kCorners, kColors, kCoordinates };
 constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUnit = 3;
-
-/// Distances along the optical axis that hold the whole box; never nearer than a thousandth of it.
-Vec2 depthRange(const Camera& camera, const Box3& box) {
-  const float radius = std::max(0.5f * box.diagonal(), 1e-6f);
-  const float middle = dot(camera.eye - box.center(), camera.axes().normal);
-  if (camera.orthographic) return {middle - 1.01f * radius, middle + 1.01f * radius};
-  return {std::max(middle - 1.01f * radius, 1e-3f * radius),
-          std::max(middle + 1.01f * radius, 2e-3f * radius)};
-}
-
-Mat4 projectionOf(const OverlayPicture& picture, const Box3& box) {
-  const Vec2 depth = depthRange(picture.camera, box);
-  return picture.camera.projection(float(picture.width) / float(picture.height), depth.x, depth.y);
-}
-
-int supportedSamples(int wanted) {
-  GLint most = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
-  return std::clamp(wanted, 1, std::max(1, int(most)));
-}
 
 void fit(Framebuffer& target, const OverlayPicture& picture, PixelFormat format, bool depth, int samples) {
   if (target && target.width() == picture.width && target.height() == picture.height &&
@@ -185,7 +166,7 @@ void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
 }
 
 void SurfaceOverlay::setView(Program& program, const OverlayPicture& picture) const {
-  program.set("worldToClip", projectionOf(picture, bounds_) * picture.camera.view());
+  program.set("worldToClip", surfaceView(picture.camera, bounds_, picture.width, picture.height).worldToClip);
   program.set("eye", picture.camera.eye);
   program.set("axis", picture.camera.axes().normal);
   program.set("parallel", picture.camera.orthographic ? 1 : 0);
@@ -200,7 +181,9 @@ void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Uploaded& ma
   glClear(GL_COLOR_BUFFER_BIT);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  const Mat4 projection = projectionOf(picture, bounds_);
+  const Vec2 depth = depthRange(picture.camera, bounds_);
+  const Mat4 projection =
+      picture.camera.projection(float(picture.width) / float(picture.height), depth.x, depth.y);
   surface_.depth().bind(surface_.samples() > 1 ? kManySamplesUnit : kOneSampleUnit);
   marksProgram_.set("samples", surface_.samples());
   marksProgram_.set("worldToClip", projection * picture.camera.view());

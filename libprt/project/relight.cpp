@@ -29,14 +29,18 @@ BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::strin
   return baked;
 }
 
+void expectPatch(const BakedScene& baked) {
+  if (!baked.patch)
+    throw ValueError("no patch is laid over the surface", "method.name",
+                     "set patch.model and method.name=biscale, and bake");
+}
+
 Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
               const PictureOptions& options, Job& job) {
   const Scene scene = withMaterials(*baked.geometry->scene, recipe);
   const Transfer& transfer = baked.transfer->transfer;
   const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
-  if (recipe.method.name == "biscale" && !baked.patch)
-    throw ValueError("no patch is laid over the surface", "method.name",
-                     "set patch.model and method.name=biscale, and bake");
+  if (recipe.method.name == "biscale") expectPatch(baked);
   if (recipe.method.name == "biscale")
     return renderBiscale({*baked.patch, *baked.samples->samples, transfer, light,
                           options.background ? &lights : nullptr, recipe.method.viewDependent},

@@ -31,6 +31,9 @@ BakedScene bakedScene(const Products& products);
 /// What a project holds for its recipe, previews included. Throws ValueError when it holds no transfer.
 BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project);
 
+/// Throws ValueError when no patch is laid over the surface: pictures by method.name=biscale need one.
+void expectPatch(const BakedScene& baked);
+
 struct PictureOptions {
   int width = 800;
   int height = 600;

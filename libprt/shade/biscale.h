@@ -31,6 +31,8 @@ class BiscaleLight {
   /// [3][padded] floats of a frame, by its place in BiscaleView::frames.
   const float* radiance(std::uint32_t place) const { return records_.data() + place * 3 * padded_; }
   std::size_t padded() const { return padded_; }
+  /// Those of all frames, one after the other.
+  std::span<const float> records() const { return records_; }
 
  private:
   std::size_t padded_ = 0;

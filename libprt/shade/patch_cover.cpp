@@ -31,4 +31,13 @@ Vec2 PatchCover::at(std::uint32_t triangle, const Vec2& barycentric) const {
   return map_->at(std::size_t(y) * std::size_t(map_->size) + std::size_t(x));
 }
 
+std::vector<Vec2> PatchCover::cornerCoordinates() const {
+  const std::vector<Vec2>& uv = mesh_ ? mesh_->uv : atlas_->uv;
+  const Vec2 scale = mesh_ ? Vec2(float(repeat_.u), float(repeat_.v)) : Vec2(1);
+  std::vector<Vec2> out;
+  for (const UVec3& t : mesh_ ? mesh_->uvTriangles : atlas_->uvTriangles)
+    for (int c = 0; c < 3; ++c) out.push_back(scale * uv[t[c]]);
+  return out;
+}
+
 }  // namespace prt

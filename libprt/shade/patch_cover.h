@@ -8,6 +8,7 @@
 #include "libprt/synthesis/id_map.h"
 
 #include <memory>
+#include <vector>
 
 namespace prt {
 
@@ -20,6 +21,11 @@ class PatchCover {
 
   /// Patch coordinates in [0, 1), nearest texel of the id map; negative where it is empty.
   Vec2 at(std::uint32_t triangle, const Vec2& barycentric) const;
+
+  /// Null where the mesh's own coordinates lay the patch.
+  const IdMap* map() const { return map_.get(); }
+  /// [3F] where the triangles' corners lie: in the atlas, or, without a map, in repeated patches.
+  std::vector<Vec2> cornerCoordinates() const;
 
  private:
   std::shared_ptr<const Atlas> atlas_;

@@ -5,6 +5,7 @@
 #include "libprt/meso/rtt.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -28,6 +29,10 @@ class ResponseTable {
   /// [channels][padded] halfs of a texel and view.
   const std::uint16_t* block(std::uint32_t texel, std::uint32_t view) const {
     return first_ + (std::size_t(texel) * std::size_t(views_.count()) + view) * blockSize();
+  }
+  /// All blocks, [texels * texels][views][channels][padded].
+  std::span<const std::uint16_t> halfs() const {
+    return {first_, std::size_t(texels_ * texels_) * std::size_t(views_.count()) * blockSize()};
   }
   std::size_t blockSize() const { return std::size_t(channels_) * padded_; }
 

@@ -1,0 +1,53 @@
+#pragma once
+// Draws a surface that carries a patch with OpenGL 4.5: equation (4) of Bi-Scale Radiance Transfer, as
+// shade/biscale.h has it. Light is transferred to the vertices by the CPU renderer's own code; the fragment
+// shader interpolates it over the triangle and meets it with the radiance transfer texture at the texel that
+// the id map names, between the four views around the viewer's direction. The views of a texel lie together
+// in one buffer and are weighed by the shader, so nothing bleeds from one texel's views into another's.
+// Every function needs the context that was current when it was made.
+
+#include "libprt/basis/sh.h"
+#include "libprt/core/job.h"
+#include "libprt/gl/objects.h"
+#include "libprt/gl/program.h"
+#include "libprt/gl/surface_view.h"
+#include "libprt/shade/biscale_view.h"
+#include "libprt/transport/sample_set.h"
+#include "libprt/transport/transfer.h"
+
+#include <memory>
+
+namespace prt::gl {
+
+class BiscalePass {
+ public:
+  /// Compiles its shaders. Throws ResourceError when the driver refuses.
+  BiscalePass();
+
+  /// Null: nothing is drawn. Light is forgotten; parts that the last surface had too are not sent again.
+  /// Throws ResourceError when the patch is larger than the driver takes.
+  void setSurface(std::shared_ptr<const BiscaleSurface> surface);
+  /// Light at all frames of the surface, as BiscaleLight has it: ValueError for the form Diffuse and for
+  /// other scenes' samples.
+  void setLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
+
+  bool empty() const { return !surface_; }
+  const Box3& bounds() const { return bounds_; }
+  /// `viewDependent` false: the patch looks from everywhere as it does from above.
+  void draw(const SurfaceView& view, bool viewDependent);
+
+ private:
+  void uploadGeometry(const BiscaleSurface& surface);
+  void uploadCover(const PatchCover& cover);
+
+  std::shared_ptr<const BiscaleSurface> surface_;
+  Program program_;
+  VertexArray array_;
+  Buffer positions_, normals_, tangents_, corners_, coordinates_;
+  BufferTexture light_, responses_;
+  Texture ids_;
+  Box3 bounds_;
+  int indexCount_ = 0;
+};
+
+}  // namespace prt::gl

@@ -1,0 +1,105 @@
+#pragma once
+// Made-up surfaces that carry a patch: nothing in them is alike, so that whoever mixes anything up is seen.
+
+#include "libprt/core/sampling.h"
+#include "libprt/material/glossy_response.h"
+#include "libprt/shade/biscale.h"
+#include "tests/support/scenes.h"
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+namespace prt::test {
+
+inline constexpr int kBands = 5;
+inline constexpr std::size_t kFunctions = 25;
+
+inline float noise(std::uint64_t seed, std::uint64_t index) {
+  return 2 * hashUniform(seed, index) - 1;
+}
+
+inline ShRgb variedLight() {
+  ShRgb light(kBands);
+  light.c[0] = Rgb(3.5f);
+  for (std::size_t k = 1; k < kFunctions; ++k)
+    light.c[k] = 0.4f * Rgb(noise(5, 3 * k), noise(5, 3 * k + 1), noise(5, 3 * k + 2));
+  return light;
+}
+
+/// Bright enough that sums stay above zero.
+inline Rtt variedRtt(int texels, int views, int channels) {
+  Rtt rtt(texels, views, kBands, channels);
+  for (std::size_t i = 0; i < rtt.values.size(); ++i) rtt.values[i] = 0.1f * noise(7, i);
+  for (std::size_t i = 0; i < rtt.values.size(); i += rtt.blockSize())
+    for (int c = 0; c < channels; ++c) rtt.values[i + std::size_t(c)] += 0.6f;
+  rtt.colour = Rgb(0.9f, 0.5f, 0.7f);
+  return rtt;
+}
+
+inline Rtt lambertRtt(float albedo) {
+  Rtt rtt(2, 4, kBands, 1);
+  for (std::size_t i = 0; i < rtt.values.size(); i += kFunctions)
+    lambertResponse(kBands, Vec3(0, 0, 1), std::span(rtt.values).subspan(i, kFunctions));
+  rtt.colour = Rgb(albedo);
+  return rtt;
+}
+
+inline Transfer matrices(std::size_t samples, int channels) {
+  const std::size_t c = std::size_t(channels);
+  std::vector<float> v(samples * kFunctions * kFunctions * c);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    v[i] = 0.02f * noise(11, i) + (i / c % (kFunctions * kFunctions) % (kFunctions + 1) == 0 ? 0.8f : 0.0f);
+  Transfer t;
+  t.form = TransferForm::Matrix, t.bands = kBands, t.samples = samples, t.channels = channels;
+  t.values = packedMatrices(v, samples, channels, kBands, DType::f32);
+  return t;
+}
+
+/// A scene with every triangle in a place of its own of a made-up id map.
+struct PatchedWorld {
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const TangentFrames> frames;
+  std::shared_ptr<const PatchCover> cover;
+  Rtt rtt;
+  SampleSet samples;
+
+  PatchedWorld(Scene made, Rtt table, bool turnSome = false)
+      : scene(std::make_shared<Scene>(std::move(made))), rtt(std::move(table)) {
+    Job job;
+    TangentFrames tangents = makeTangentFrames(scene->mesh, {}, job);
+    if (turnSome)  // a seam through the field: a quarter turn in every third triangle
+      for (std::size_t t = 0; t < scene->mesh.triangles.size(); t += 3)
+        for (int c = 0; c < 3; ++c)
+          tangents.tangents[3 * t + std::size_t(c)] = tangents.at(scene->mesh, t, c).bitangent;
+    frames = std::make_shared<TangentFrames>(std::move(tangents));
+    auto atlas = std::make_shared<Atlas>();
+    auto map = std::make_shared<IdMap>();
+    map->size = 64;
+    for (int i = 0; i < 64 * 64; ++i) {
+      const bool empty = i % 97 == 0;
+      for (int c = 0; c < 2; ++c)
+        map->ids.push_back(empty ? IdMap::kEmpty
+                                 : std::uint16_t(65534 * hashUniform(3, std::uint64_t(2 * i + c))));
+    }
+    for (std::uint32_t t = 0; t < scene->mesh.triangles.size(); ++t) {
+      const Vec2 at(hashUniform(4, 2 * t) * 0.7f, hashUniform(4, 2 * t + 1) * 0.7f);
+      const auto first = std::uint32_t(atlas->uv.size());
+      atlas->uv.insert(atlas->uv.end(), {at, at + Vec2(0.3f, 0), at + Vec2(0, 0.3f)});
+      atlas->uvTriangles.push_back({first, first + 1, first + 2});
+    }
+    cover = std::make_shared<PatchCover>(atlas, map, scene->mesh.triangles.size());
+    samples = samplesAtVertices(*scene);
+  }
+
+  BiscaleSurface surface() const { return {scene, frames, cover, std::make_shared<ResponseTable>(rtt)}; }
+  Image picture(const Transfer& transfer, const ShRgb& light, const Camera& camera, int width, int height,
+                bool viewDependent = true) const {
+    Job job;
+    const BiscaleSurface made = surface();
+    return renderBiscale({made, samples, transfer, light, nullptr, viewDependent}, camera, width, height, 2,
+                         job);
+  }
+};
+
+}  // namespace prt::test
