@@ -18,6 +18,11 @@ bool sameGeometry(const Scene& a, const Scene& b) {
          a.mesh.triangles == b.mesh.triangles;
 }
 
+bool sameLights(const LightRig& a, const LightRig& b) {
+  return a.rotation == b.rotation && a.intensity == b.intensity && a.circles == b.circles &&
+         a.directionals == b.directionals && a.constant == b.constant;
+}
+
 }  // namespace
 
 Backdrop makeBackdrop(const std::shared_ptr<const EnvironmentMap>& map, Job& job) {
@@ -82,6 +87,8 @@ void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb 
 }
 
 void Relighter::setLights(const LightRig& rig, const MethodRecipe& method) {
+  // Every edit of the recipe comes by here; most are of other things, and a picture takes time.
+  if (sameLights(rig, rig_) && method == method_) return;
   const auto environment = rig_.environment;
   rig_ = rig;
   rig_.environment = environment;

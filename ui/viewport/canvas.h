@@ -58,6 +58,8 @@ class Canvas {
   virtual QWidget* widget() = 0;
   /// What is shown has changed.
   virtual void invalidate() = 0;
+  /// Only what lies over the surface has: false colour, paint, marks.
+  virtual void invalidateLayers() { invalidate(); }
   /// While the user drags, a frame in time is worth more than smooth edges.
   virtual void setInteracting(bool interacting) = 0;
   /// Edges as smooth as they get, whatever it costs: for pictures that are the same each time.

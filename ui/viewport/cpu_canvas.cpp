@@ -35,23 +35,30 @@ void layOver(QImage& image, const Image& layer) {
 
 }  // namespace
 
-void CpuCanvas::drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene,
-                         const LivePicture& picture, const Layers& layers, Job& job) {
+QImage CpuCanvas::surfaceOf(LiveRenderer& renderer, const LiveScene& scene, const LivePicture& picture,
+                            Job& job) {
   const int width = picture.width, height = picture.height;
-  if (image.size() != QSize(width, height)) image = QImage(width, height, QImage::Format_RGB32);
+  QImage image(width, height, QImage::Format_RGB32);
   // Rows of 32-bit pixels have no padding.
   renderer.draw(scene, picture,
                 {reinterpret_cast<std::uint32_t*>(image.bits()), std::size_t(width) * std::size_t(height)},
                 job);
+  return image;
+}
+
+QImage CpuCanvas::withLayers(const QImage& surface, const LiveScene& scene, const Camera& camera,
+                             const Layers& layers, Job& job) {
   const bool fits = scene.scene && layers.values.size() == scene.scene->mesh.vertexCount();
   const SurfacePaint& paint = layers.paint;
   const bool painted = scene.scene && !paint.empty() &&
                        (paint.colors.empty() || paint.colors.size() == scene.scene->mesh.triangleCount());
-  if (!scene.scene || (!fits && !painted && layers.marks.empty())) return;
-  const OverlayPicture over{picture.camera, width, height, layers.grid, layers.pixelScale};
+  if (!scene.scene || (!fits && !painted && layers.marks.empty())) return surface;
+  const OverlayPicture over{camera, surface.width(), surface.height(), layers.grid, layers.pixelScale};
+  QImage image = surface;
   layOver(image, drawSurfaceOverlay(scene.scene->mesh,
                                     fits ? std::span<const float>(layers.values) : std::span<const float>(),
                                     painted ? paint : SurfacePaint{}, layers.marks, over, job));
+  return image;
 }
 
 CpuCanvas::CpuCanvas(CanvasContext context, QWidget* parent) : QWidget(parent), context_(std::move(context)) {
@@ -68,6 +75,15 @@ CpuCanvas::~CpuCanvas() {
 }
 
 void CpuCanvas::invalidate() {
+  surfaceVersion_ = version_ + 1;
+  change();
+}
+
+void CpuCanvas::invalidateLayers() {
+  change();
+}
+
+void CpuCanvas::change() {
   ++version_;
   broken_ = false;  // what was refused may be another thing by now
   if (smooth_) smooth_->job.cancel();
@@ -133,7 +149,10 @@ void CpuCanvas::drawFrame() {
   const bool coarse = interacting_ && coarse_;
   Job patient;
   const double scale = coarse ? kCoarse : 1;
-  drawInto(frame_, renderer_, liveScene(), livePicture(pixels(scale), 1), layersNow(scale, 1), patient);
+  const LiveScene scene = liveScene();
+  if (drawn_ < surfaceVersion_ || surface_.size() != pixels(scale))
+    surface_ = surfaceOf(renderer_, scene, livePicture(pixels(scale), 1), patient);
+  frame_ = withLayers(surface_, scene, context_.view.camera(), layersNow(scale, 1), patient);
   drawn_ = version_;
   milliseconds_ = double(timer.nsecsElapsed()) * 1e-6;
   if (interacting_) coarse_ = coarse ? milliseconds_ > kShortAgain : milliseconds_ > kTooLong;
@@ -143,31 +162,31 @@ void CpuCanvas::drawFrame() {
 void CpuCanvas::startSmooth() {
   if (interacting_ || (smooth_ && smooth_->version == version_)) return;
   if (smooth_) smooth_->job.cancel();
-  smooth_ = std::make_shared<Smooth>();
+  const auto before = std::exchange(smooth_, std::make_shared<Smooth>());
   smooth_->version = version_;
+  if (before && before->version >= surfaceVersion_ && before->surface.size() == pixels(1))
+    smooth_->surface = before->surface;
   smoothing_.start([this, smooth = smooth_, scene = liveScene(),
                     picture = livePicture(pixels(1), smoothGrid()), layers = layersNow(1, 2)] {
     // Nobody waits for it: charts and bakes that the hand has just changed come first or beside it.
     const BackgroundWork background;
-    QImage image;
+    QImage surface = smooth->surface, image;
     try {
       LiveRenderer renderer;
-      drawInto(image, renderer, scene, picture, layers, smooth->job);
+      if (surface.isNull()) surface = surfaceOf(renderer, scene, picture, smooth->job);
+      image = withLayers(surface, scene, picture.camera, layers, smooth->job);
     } catch (const std::exception&) {
       return;  // cancelled; or the frame on the screen told already
     }
     QMetaObject::invokeMethod(
         this,
-        [this, smooth, image] {
+        [this, smooth, surface, image] {
+          smooth->surface = surface;
           smooth->image = image;
-          takeSmooth(smooth);
+          if (smooth == smooth_ && smooth->version == version_) update();
         },
         Qt::QueuedConnection);
   });
-}
-
-void CpuCanvas::takeSmooth(const std::shared_ptr<Smooth>& smooth) {
-  if (smooth == smooth_ && smooth->version == version_) update();
 }
 
 void CpuCanvas::paintEvent(QPaintEvent*) {
@@ -198,11 +217,11 @@ void CpuCanvas::resizeEvent(QResizeEvent*) {
 
 QImage CpuCanvas::grabPicture() {
   if (!context_.relighter.scene()) return {};
-  QImage image;
   Job patient;
   LiveRenderer renderer;
-  drawInto(image, renderer, liveScene(), livePicture(pixels(1), smoothGrid()), layersNow(1, 2), patient);
-  return image;
+  const LiveScene scene = liveScene();
+  return withLayers(surfaceOf(renderer, scene, livePicture(pixels(1), smoothGrid()), patient), scene,
+                    context_.view.camera(), layersNow(1, 2), patient);
 }
 
 }  // namespace prt::ui

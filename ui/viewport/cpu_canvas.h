@@ -24,6 +24,7 @@ class CpuCanvas : public QWidget, public Canvas {
 
   QWidget* widget() override { return this; }
   void invalidate() override;
+  void invalidateLayers() override;
   void setInteracting(bool interacting) override;
   void setThorough(bool thorough) override;
   bool settled() const override;
@@ -46,7 +47,7 @@ class CpuCanvas : public QWidget, public Canvas {
   struct Smooth {
     quint64 version = 0;
     Job job;
-    QImage image;
+    QImage surface, image;  // without and with what lies over it
   };
 
   /// What lies over the picture, as it is now.
@@ -58,22 +59,25 @@ class CpuCanvas : public QWidget, public Canvas {
     int grid = 1;
   };
 
-  static void drawInto(QImage& image, LiveRenderer& renderer, const LiveScene& scene,
-                       const LivePicture& picture, const Layers& layers, Job& job);
+  static QImage surfaceOf(LiveRenderer& renderer, const LiveScene& scene, const LivePicture& picture,
+                          Job& job);
+  static QImage withLayers(const QImage& surface, const LiveScene& scene, const Camera& camera,
+                           const Layers& layers, Job& job);
   Layers layersNow(double scale, int grid) const;
   QSize pixels(double scale) const;
   LiveScene liveScene() const;
   LivePicture livePicture(const QSize& size, int grid) const;
   void drawFrame();
   void startSmooth();
-  void takeSmooth(const std::shared_ptr<Smooth>& smooth);
+  void change();
   int smoothGrid() const;
 
   CanvasContext context_;
   LiveRenderer renderer_;
-  QImage frame_;
+  QImage surface_, frame_;          // without and with what lies over it
   std::shared_ptr<Smooth> smooth_;  // the newest one
   quint64 version_ = 1;             // of what is to be seen
+  quint64 surfaceVersion_ = 1;      // the version_ since which only the layers have changed
   quint64 drawn_ = 0;               // of frame_
   bool interacting_ = false, thorough_ = false, coarse_ = false, broken_ = false;
   QString problem_;  // that was told last

@@ -46,7 +46,7 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
     refresh();
     Q_EMIT hintChanged(hint());
   });
-  connect(&session_.layers(), &SurfaceLayers::changed, this, &Viewport::refresh);
+  connect(&session_.layers(), &SurfaceLayers::changed, this, [this] { canvas_->invalidateLayers(); });
   // These change what is written on the picture, not the picture.
   connect(&session_, &Session::statusChanged, this, [this] { canvas_->widget()->update(); });
   connect(&session_, &Session::selectionChanged, this, [this] { canvas_->widget()->update(); });
