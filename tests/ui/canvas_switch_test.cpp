@@ -83,6 +83,36 @@ TEST_F(CanvasSwitchTest, InAWindowThatIsNotSeen) {
   view().setDrawing(Drawing::Automatic);
 }
 
+TEST_F(CanvasSwitchTest, BothDrawThePatch) {
+  if (GlCanvas::support() == GlSupport::None) GTEST_SKIP() << "no OpenGL 4.5 here";
+  Recipe recipe = smallScene();
+  recipe.patch.model = PatchModel::HeightField;
+  recipe.patch.heightmap = "builtin:bins";
+  recipe.patch.grid = 16;
+  recipe.rtt.texels = 8, recipe.rtt.views = 3, recipe.rtt.rays = 64, recipe.rtt.supersamples = 1;
+  recipe.synthesis.vertices = 2000, recipe.synthesis.scale = 1;
+  recipe.idmap.size = 128, recipe.atlas.size = 256;
+  recipe.method.name = "biscale";
+  window.resize(640, 480);
+  openAndSettle(recipe);
+  ASSERT_TRUE(waitFor([this] { return session.jobs().idle() && session.relighter().shownPatch(); }));
+  view().setDrawing(Drawing::Cpu);
+  ASSERT_TRUE(drawn() && still());
+  const QImage cpu = picture();
+  view().setDrawing(Drawing::OpenGl);
+  ASSERT_TRUE(isGl() && drawn() && still());
+  const QImage patched = picture();
+  EXPECT_LT(difference(cpu, patched), 0.02);
+  const auto differs = [&] { return waitFor([&] { return difference(patched, picture()) > 0.02; }, 10000); };
+  session.setEnvironmentAngle(session.environmentAngle() + 90);
+  EXPECT_TRUE(differs()) << "the light turns over it";
+  session.setEnvironmentAngle(session.environmentAngle() - 90);
+  session.document().set(QStringLiteral("method.name"), QStringLiteral("auto"));
+  EXPECT_TRUE(differs()) << "it was to be seen";
+  EXPECT_TRUE(isGl()) << "hiding the patch is no matter of who draws";
+  view().setDrawing(Drawing::Automatic);
+}
+
 // A widget that moves to another window gets another context there; everything is uploaded again.
 TEST_F(CanvasSwitchTest, ANewContextShowsTheSamePicture) {
   if (GlCanvas::support() == GlSupport::None) GTEST_SKIP() << "no OpenGL 4.5 here";

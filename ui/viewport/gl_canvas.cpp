@@ -96,6 +96,7 @@ void GlCanvas::initializeGL() {
     description_ = QString::fromStdString(gl::describeContext());
     scene_ = light_ = materials_ = 0;
     backdrop_.reset();
+    patch_.reset();
     pass_ = 0;  // what another context has shown is gone with it
     finished_ = broken_ = false;
   } catch (const std::exception& error) {
@@ -180,10 +181,28 @@ void GlCanvas::uploadChanges() {
     renderer_->setEnvironment(*backdrop);
     backdrop_ = backdrop;
   }
-  if (light_ != lit.lightVersion()) {
-    renderer_->setLight(lit.surface());
-    light_ = lit.lightVersion();
+  const auto patch = lit.shownPatch();
+  if (patch != patch_) {
+    renderer_->setPatch(patch);
+    patch_ = patch;
+    light_ = 0;
   }
+  if (light_ != lit.lightVersion()) uploadLight();
+}
+
+void GlCanvas::uploadLight() {
+  Relighter& lit = context_.relighter;
+  if (patch_) {
+    const bool baked = lit.transfer() && lit.samples();
+    Transfer unshadowed;
+    unshadowed.bands = lit.bands();
+    Job patient;
+    renderer_->setPatchLight(baked ? *lit.samples() : SampleSet{}, baked ? *lit.transfer() : unshadowed,
+                             lit.light(), patient);
+  } else {
+    renderer_->setLight(lit.surface());
+  }
+  light_ = lit.lightVersion();
 }
 
 void GlCanvas::drawScene() {
@@ -202,6 +221,7 @@ void GlCanvas::drawScene() {
   picture.circles = sky.circles;
   picture.constant = sky.constant;
   picture.smoothEnvironment = true;
+  picture.viewDependent = context_.relighter.method().viewDependent;
   picture.tone = context_.view.tone();
   if (context_.view.grid() && context_.relighter.scene())
     picture.gridSpacing = gridSpacing(context_.relighter.scene()->mesh.bounds());

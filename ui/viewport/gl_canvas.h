@@ -50,6 +50,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
  private:
   void release();
   void uploadChanges();
+  void uploadLight();
   void drawScene();
   void drawLayers();
   void goOn(double milliseconds);
@@ -69,6 +70,7 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   QString description_;
   quint64 scene_ = 0, light_ = 0, materials_ = 0;
   std::shared_ptr<const EnvironmentMap> backdrop_;  // that was uploaded
+  std::shared_ptr<const BiscaleSurface> patch_;     // the same
   quint64 layersScene_ = 0, layersValues_ = 0, layersPaint_ = 0, layersMarks_ = 0;
 };
 

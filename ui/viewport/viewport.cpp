@@ -72,8 +72,6 @@ CanvasContext Viewport::canvasContext() {
 }
 
 void Viewport::chooseCanvas() {
-  patchShown_ = bool(session_.relighter().shownPatch());
-  if (patchShown_) return useCpu();  // OpenGL does not draw patches
   const GlSupport support = drawing_ == Drawing::Cpu ? GlSupport::None : GlCanvas::support();
   if (drawing_ == Drawing::OpenGl && support == GlSupport::None)
     session_.report(Severity::Warning, tr("This machine has no OpenGL 4.5: the CPU goes on drawing."));
@@ -114,7 +112,6 @@ void Viewport::show(Canvas* canvas) {
 }
 
 void Viewport::refresh() {
-  if (bool(session_.relighter().shownPatch()) != patchShown_) chooseCanvas();
   canvas_->invalidate();
 }
 

@@ -95,7 +95,6 @@ class Viewport : public QWidget {
   Session& session_;
   Drawing drawing_ = Drawing::Automatic;
   Canvas* canvas_ = nullptr;  // a child widget
-  bool patchShown_ = false;   // whether it was chosen for a scene with a patch
   std::vector<Manipulator*> manipulators_;
   Manipulator* held_ = nullptr;     // has the left button
   Manipulator* hovered_ = nullptr;  // would take it
