@@ -16,6 +16,7 @@
 #include "ui/model/session.h"
 #include "ui/viewport/cut_tool.h"
 #include "ui/viewport/light_handles.h"
+#include "ui/viewport/stroke_brush.h"
 #include "ui/viewport/view_actions.h"
 #include "ui/viewport/viewport.h"
 #include "ui/widgets/chart_view.h"
@@ -84,6 +85,8 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
           new LightHandles(session.lights(), session.rays(), [&session] { return session.bounds(); })),
       cutTool_(new CutTool(session.charts(), session.rays(),
                            [this](const QPointF& at) { return viewport_->pick(at); })),
+      strokeBrush_(new StrokeBrush(session.field(), session.painting(),
+                                   [this](const QPointF& at) { return viewport_->pick(at); })),
       message_(new MessageBar(viewport_)),
       recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
@@ -91,15 +94,18 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
       statusLine_(new StatusLine(session, *viewport_, *statusBar())) {
   setObjectName(QStringLiteral("studio"));
   setCentralWidget(viewport_);
-  viewport_->addManipulator(cutTool_);  // before what it works among
+  // Tools come before what they work among.
+  viewport_->addManipulator(cutTool_);
+  viewport_->addManipulator(strokeBrush_);
   viewport_->addManipulator(lightHandles_);
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   makeDocks();
   makeSheets();
   makeMenus(*this, {session_, *documents_, *viewActions_, *lightHandles_, *chartDock_,
-                    [this] { bringToFront(QStringLiteral("charts")); }, *layouts_, *strip_, *palette_, *keys_,
-                    docks_});
+                    [this] { bringToFront(QStringLiteral("charts")); },
+                    [this] { bringToFront(QStringLiteral("synthesis")); }, *layouts_, *strip_, *palette_,
+                    *keys_, docks_});
   resize(kDefaultWidth, kDefaultHeight);
   if (freshLayout) {
     layouts_->reset();
@@ -134,6 +140,10 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
     const bool now = session_.charts().cutting();
     if (now && !std::exchange(cutting, now)) viewport_->setFocus();
     cutting = now;
+  });
+  // So are the brushes'.
+  connect(&session_.painting(), &Painting::brushChanged, this, [this] {
+    if (session_.painting().brush() != Brush::None) viewport_->setFocus();
   });
   // A chart is selected where it is clicked, on the model too.
   connect(viewport_, &Viewport::clicked, this, [this](const QPointF& at, Qt::KeyboardModifiers) {

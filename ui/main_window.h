@@ -12,6 +12,7 @@ namespace prt::ui {
 class ChartDock;
 class CommandPalette;
 class CutTool;
+class StrokeBrush;
 class KeysOverlay;
 class Layouts;
 class LightHandles;
@@ -30,6 +31,7 @@ class MainWindow : public QMainWindow {
   LightHandles& lightHandles() { return *lightHandles_; }
   ChartDock& chartDock() { return *chartDock_; }
   CutTool& cutTool() { return *cutTool_; }
+  StrokeBrush& strokeBrush() { return *strokeBrush_; }
   MessageBar& messageBar() { return *message_; }
   CommandPalette& commandPalette() { return *palette_; }
   KeysOverlay& keys() { return *keys_; }
@@ -66,6 +68,7 @@ class MainWindow : public QMainWindow {
   class ViewActions* viewActions_;
   LightHandles* lightHandles_;
   CutTool* cutTool_;
+  StrokeBrush* strokeBrush_;
   ChartDock* chartDock_ = nullptr;
   MessageBar* message_;
   class RecoveryBar* recovery_;

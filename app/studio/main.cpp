@@ -51,6 +51,8 @@ Options parse(const QApplication& application) {
         QStringLiteral("NAME")},
        {QStringLiteral("auto-cut"),
         QStringLiteral("cut charts before the picture is taken; with --dock charts")},
+       {QStringLiteral("show-field"),
+        QStringLiteral("lay the orientation field over the model; with --dock synthesis")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
         QStringLiteral("NAME")},
        {QStringLiteral("errors"),
@@ -79,6 +81,7 @@ Options parse(const QApplication& application) {
   options.screenshot.file = parser.value(QStringLiteral("screenshot"));
   options.screenshot.dock = parser.value(QStringLiteral("dock"));
   options.screenshot.autoCut = parser.isSet(QStringLiteral("auto-cut"));
+  options.screenshot.showField = parser.isSet(QStringLiteral("show-field"));
   options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
   if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
       options.screenshot.sheet != u"keys")

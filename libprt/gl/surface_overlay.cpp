@@ -39,8 +39,6 @@ SurfaceOverlay::SurfaceOverlay()
       emptyArray_(VertexArray::create()) {
   for (Buffer* buffer : {&positions_, &normals_, &values_, &indices_, &paintColors_, &paintUv_})
     *buffer = Buffer::create();
-  for (Uploaded* each : {&marks_, &seams_})
-    for (Buffer* buffer : {&each->points, &each->edges, &each->triangles}) *buffer = Buffer::create();
   const auto colors = magnitudeColors();
   Image scale(int(colors.size()), 1, 4);
   for (std::size_t i = 0; i < colors.size(); ++i) {
@@ -93,8 +91,17 @@ void SurfaceOverlay::setPaint(const SurfacePaint& paint) {
   seams_.upload(paint.seams);
 }
 
-void SurfaceOverlay::setMarks(const SurfaceMarks& marks) {
-  marks_.upload(marks);
+void SurfaceOverlay::setMarks(std::span<const SurfaceMarks> marks) {
+  marks_.resize(marks.size());
+  marked_ = false;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    marks_[i].upload(marks[i]);
+    marked_ = marked_ || !marks[i].empty();
+  }
+}
+
+SurfaceOverlay::Uploaded::Uploaded() {
+  for (Buffer* buffer : {&points, &edges, &triangles}) *buffer = Buffer::create();
 }
 
 void SurfaceOverlay::Uploaded::upload(const SurfaceMarks& marks) {
@@ -105,7 +112,7 @@ void SurfaceOverlay::Uploaded::upload(const SurfaceMarks& marks) {
   edges.upload(std::span<const Vec3>(marks.edges));
   triangles.upload(std::span<const Vec3>(marks.triangles));
   color = marks.color;
-  hidden = marks.hidden;
+  hidden = marks.hidden, size = marks.size, fill = marks.fill;
 }
 
 void SurfaceOverlay::draw(const OverlayPicture& picture, unsigned framebuffer) {
@@ -114,8 +121,10 @@ void SurfaceOverlay::draw(const OverlayPicture& picture, unsigned framebuffer) {
   drawSurface(picture, samples);
   bool showSurface = hasValues_ || hasPaint_;
   // One layer of marks after the other; the surface's colours lie under the first.
-  for (const Uploaded* each : {&seams_, &marks_}) {
-    if (each->empty() && !(showSurface && each == &marks_)) continue;
+  std::vector<const Uploaded*> layers{&seams_};
+  for (const Uploaded& each : marks_) layers.push_back(&each);
+  for (const Uploaded* each : layers) {
+    if (each->empty() && !showSurface) continue;
     drawMarks(picture, *each);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, picture.width, picture.height);
@@ -189,24 +198,25 @@ void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Uploaded& ma
   marksProgram_.set("worldToClip", projection * picture.camera.view());
   marksProgram_.set("size", Vec2(picture.width, picture.height));
   marksProgram_.set("depthTerms", Vec3(projection[2][2], projection[3][2], projection[2][3]));
-  marksProgram_.set("fill", kMarkFill);
+  marksProgram_.set("fill", marks.fill);
   marksProgram_.set("hidden", marks.hidden);
   const Camera& camera = picture.camera;
   marksProgram_.set("lift", camera.orthographic ? 0.0f : kMarkLift);
   marksProgram_.set("slack", camera.orthographic ? kMarkLift * length(camera.eye - camera.target) : 0.0f);
-  drawMarks(picture, marks.triangles, 3, marks.triangleCount);
-  drawMarks(picture, marks.edges, 2, marks.edgeCount);
-  drawMarks(picture, marks.points, 1, marks.pointCount);
+  const float scale = picture.pixelScale * marks.size;
+  drawMarks(scale, marks.triangles, 3, marks.triangleCount);
+  drawMarks(scale, marks.edges, 2, marks.edgeCount);
+  drawMarks(scale, marks.points, 1, marks.pointCount);
   glBlendEquation(GL_FUNC_ADD);
   glDisable(GL_BLEND);
 }
 
-void SurfaceOverlay::drawMarks(const OverlayPicture& picture, const Buffer& places, int corners, int count) {
+void SurfaceOverlay::drawMarks(float pixelScale, const Buffer& places, int corners, int count) {
   if (count == 0) return;
-  const float halfWidth = (corners == 1 ? kMarkRadius : kMarkHalfWidth) * picture.pixelScale;
+  const float halfWidth = (corners == 1 ? kMarkRadius : kMarkHalfWidth) * pixelScale;
   marksProgram_.set("corners", corners);
   marksProgram_.set("halfWidth", halfWidth);
-  marksProgram_.set("reach", halfWidth + kMarkOutline * picture.pixelScale);
+  marksProgram_.set("reach", halfWidth + kMarkOutline * pixelScale);
   places.bindStorage(kPlacesBinding);
   marksProgram_.use();
   glBindVertexArray(emptyArray_.id());

@@ -11,6 +11,7 @@
 #include "libprt/shade/surface_overlay.h"
 
 #include <span>
+#include <vector>
 
 namespace prt::gl {
 
@@ -27,9 +28,11 @@ class SurfaceOverlay {
   /// Colours of triangles, in place of the values, and lines. Throws ValueError on another number of
   /// triangles.
   void setPaint(const SurfacePaint& paint);
-  void setMarks(const SurfaceMarks& marks);
+  /// Layers of marks, the lowest first.
+  void setMarks(std::span<const SurfaceMarks> marks);
+  void setMarks(const SurfaceMarks& marks) { setMarks(std::span(&marks, 1)); }
   /// Whether draw() would change anything.
-  bool empty() const { return !hasValues_ && !hasPaint_ && marks_.empty() && seams_.empty(); }
+  bool empty() const { return !hasValues_ && !hasPaint_ && !marked_ && seams_.empty(); }
 
   /// Over the colours of `framebuffer` (0 = the window), which are display-encoded. grid * grid samples per
   /// pixel.
@@ -43,15 +46,16 @@ class SurfaceOverlay {
     Buffer points, edges, triangles;
     int pointCount = 0, edgeCount = 0, triangleCount = 0;
     Rgb color{1};
-    float hidden = 0;
+    float hidden = 0, size = 1, fill = 0;
 
+    Uploaded();
     bool empty() const { return pointCount + edgeCount + triangleCount == 0; }
     void upload(const SurfaceMarks& marks);
   };
   void drawSurface(const OverlayPicture& picture, int samples);
   void setView(Program& program, const OverlayPicture& picture) const;
   void drawMarks(const OverlayPicture& picture, const Uploaded& marks);
-  void drawMarks(const OverlayPicture& picture, const Buffer& places, int corners, int count);
+  void drawMarks(float pixelScale, const Buffer& places, int corners, int count);
   void compose(int samples, bool showSurface, const Rgb& markColor);
 
   Program surfaceProgram_, paintProgram_, marksProgram_, composeProgram_;
@@ -59,12 +63,13 @@ class SurfaceOverlay {
   Buffer positions_, normals_, values_, indices_, paintColors_, paintUv_;
   Texture scale_;
   Framebuffer surface_, cover_;
-  Uploaded marks_, seams_;
+  Uploaded seams_;
+  std::vector<Uploaded> marks_;
   Box3 bounds_;
   std::size_t vertexCount_ = 0;
   int indexCount_ = 0;
   float squares_ = 0;  // of the paint; 0: none
-  bool hasValues_ = false, hasPaint_ = false;
+  bool hasValues_ = false, hasPaint_ = false, marked_ = false;
 };
 
 }  // namespace prt::gl

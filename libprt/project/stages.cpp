@@ -86,6 +86,7 @@ std::vector<Stage> makeStages() {
        .make = makeSamples},
       {.name = "field",
        .makes = "directions along which patches are laid",
+       .version = 2,
        .inputs = {"scene"},
        .reads = {"field", "patch.model", "synthesis.mapping"},
        .wanted = grownPatch,

@@ -50,18 +50,20 @@ class Projector {
 /// How much of each pixel marks cover: strongest mark, not the sum, so that what overlaps does not add up.
 class MarkCoverage {
  public:
-  MarkCoverage(const OverlayPicture& picture, const std::vector<float>& surface, float hidden)
+  MarkCoverage(const OverlayPicture& picture, const std::vector<float>& surface, const SurfaceMarks& marks)
       : picture_(picture),
         project_(picture),
         surface_(surface),
-        hidden_(hidden),
+        hidden_(marks.hidden),
+        fill_(marks.fill),
+        scale_(picture.pixelScale * marks.size),
         mark_(surface.size(), 0.0f),
         rim_(surface.size(), 0.0f) {}
 
   void segment(const Vec3& a, const Vec3& b, float halfWidth) {
     const Projected p = project_(a), q = project_(b);
     if (!p.inFront || !q.inFront) return;
-    const float core = halfWidth * picture_.pixelScale, reach = core + kMarkOutline * picture_.pixelScale;
+    const float core = halfWidth * scale_, reach = core + kMarkOutline * scale_;
     const Vec2 from(p.x, p.y), along(q.x - p.x, q.y - p.y);
     const float square = dot(along, along);
     overBox(std::min(p.x, q.x) - reach - 1, std::max(p.x, q.x) + reach + 1, std::min(p.y, q.y) - reach - 1,
@@ -85,7 +87,7 @@ class MarkCoverage {
               const float w = ((q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x)) / area;
               if (v < 0 || w < 0 || v + w > 1) return;
               const float depth = p.depth + v * (q.depth - p.depth) + w * (r.depth - p.depth);
-              raise(mark_[pixel], kMarkFill * opacityAt(pixel, depth));
+              raise(mark_[pixel], fill_ * opacityAt(pixel, depth));
             });
   }
 
@@ -123,7 +125,8 @@ class MarkCoverage {
   const OverlayPicture& picture_;
   Projector project_;
   const std::vector<float>& surface_;  // distance, infinite where nothing is seen
-  float hidden_;
+  float hidden_, fill_;
+  float scale_;  // pixels per unit of sizes
   std::vector<float> mark_, rim_;
 };
 
@@ -183,11 +186,11 @@ void checkPaint(const SurfacePaint& paint, std::size_t triangles) {
 
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
                          const OverlayPicture& picture, Job& job) {
-  return drawSurfaceOverlay(mesh, values, {}, marks, picture, job);
+  return drawSurfaceOverlay(mesh, values, {}, std::span(&marks, 1), picture, job);
 }
 
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfacePaint& paint,
-                         const SurfaceMarks& marks, const OverlayPicture& picture, Job& job) {
+                         std::span<const SurfaceMarks> marks, const OverlayPicture& picture, Job& job) {
   if (!values.empty() && values.size() != mesh.vertexCount())
     throw ValueError("an overlay of " + std::to_string(values.size()) + " values for a mesh of " +
                          std::to_string(mesh.vertexCount()) + " vertices",
@@ -220,16 +223,18 @@ Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, con
         }
       }
   });
-  for (const SurfaceMarks* each : {&paint.seams, &marks}) {
-    if (each->empty()) continue;
-    MarkCoverage coverage(picture, surface, each->hidden);
-    for (std::size_t i = 0; i + 2 < each->triangles.size(); i += 3)
-      coverage.triangle(each->triangles[i], each->triangles[i + 1], each->triangles[i + 2]);
-    for (std::size_t i = 0; i + 1 < each->edges.size(); i += 2)
-      coverage.segment(each->edges[i], each->edges[i + 1], kMarkHalfWidth);
-    for (const Vec3& p : each->points) coverage.segment(p, p, kMarkRadius);
-    coverage.lay(each->color, image);
-  }
+  const auto lay = [&](const SurfaceMarks& layer) {
+    if (layer.empty()) return;
+    MarkCoverage coverage(picture, surface, layer);
+    for (std::size_t i = 0; i + 2 < layer.triangles.size(); i += 3)
+      coverage.triangle(layer.triangles[i], layer.triangles[i + 1], layer.triangles[i + 2]);
+    for (std::size_t i = 0; i + 1 < layer.edges.size(); i += 2)
+      coverage.segment(layer.edges[i], layer.edges[i + 1], kMarkHalfWidth);
+    for (const Vec3& p : layer.points) coverage.segment(p, p, kMarkRadius);
+    coverage.lay(layer.color, image);
+  };
+  lay(paint.seams);
+  for (const SurfaceMarks& layer : marks) lay(layer);
   return image;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// What is drawn over a picture of the surface: false colour per vertex, and marks (points, edges, triangles)
-// that show through what hides them. The CPU's version; gl/surface_overlay draws the same in OpenGL.
+// What is drawn over a picture of the surface: false colour per vertex, and layers of marks (points, edges,
+// triangles) that show through what hides them. The CPU's version; gl/surface_overlay draws the same in
+// OpenGL.
 
 #include "libprt/core/image.h"
 #include "libprt/core/job.h"
@@ -20,8 +21,11 @@ struct SurfaceMarks {
   std::vector<Vec3> triangles;    ///< triples of corners
   Rgb color{1.0f, 0.31f, 0.16f};  ///< as the screen shows it
   float hidden = 0.3f;            ///< opacity of what lies behind the surface
+  float size = 1;                 ///< of points and edges, relative to the sizes below
+  float fill = 0.7f;              ///< opacity of triangles
 
   bool empty() const { return points.empty() && edges.empty() && triangles.empty(); }
+  bool operator==(const SurfaceMarks&) const = default;
   /// Bounds of everything marked.
   Box3 bounds() const;
 };
@@ -52,7 +56,6 @@ struct OverlayPicture {
 inline constexpr float kMarkRadius = 4.5f;      ///< of points, in units of pixelScale
 inline constexpr float kMarkHalfWidth = 1.25f;  ///< of edges
 inline constexpr float kMarkOutline = 1.0f;     ///< dark rim around both
-inline constexpr float kMarkFill = 0.7f;        ///< opacity of triangles
 /// A mark counts as hidden when it lies this share of its distance behind the surface.
 inline constexpr float kMarkLift = 2e-3f;
 
@@ -61,10 +64,11 @@ inline constexpr float kMarkLift = 2e-3f;
 /// are values but not one for each vertex.
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfaceMarks& marks,
                          const OverlayPicture& picture, Job& job);
-/// The same with paint, which takes the place of the values where it has colours. Throws ValueError when
-/// there are colours but not one for each triangle, or texture coordinates but not three.
+/// The same with paint, which takes the place of the values where it has colours, and several layers of
+/// marks, the lowest first. Throws ValueError when there are colours but not one for each triangle, or
+/// texture coordinates but not three.
 Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, const SurfacePaint& paint,
-                         const SurfaceMarks& marks, const OverlayPicture& picture, Job& job);
+                         std::span<const SurfaceMarks> marks, const OverlayPicture& picture, Job& job);
 /// Throws those errors.
 void checkPaint(const SurfacePaint& paint, std::size_t triangles);
 

@@ -7,6 +7,7 @@
 #include "libprt/synthesis/vertex_connection.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -66,17 +67,41 @@ struct Pull {
   bool any = false;
 };
 
-/// Where a stroke passes nearest to a point: squared distance and direction of the stroke there.
-std::pair<double, DVec3> nearestOnStroke(const DVec3& p, const FieldStroke& stroke) {
-  std::pair<double, DVec3> best{1e300, DVec3(0)};
+/// A straight piece of a stroke, no longer than the stroke is wide where that takes few pieces.
+struct StrokePiece {
+  DVec3 from, way;                                            // way: to its other end
+  std::pair<double, std::uint32_t> nearest{1e300, kNowhere};  // squared distance and number of a vertex
+};
+
+std::vector<StrokePiece> piecesOf(const FieldStroke& stroke, double width) {
+  constexpr double kMost = 64;  // of one straight line
+  std::vector<StrokePiece> pieces;
   for (std::size_t i = 0; i + 1 < stroke.points.size(); ++i) {
     const DVec3 a(stroke.points[i]), d = DVec3(stroke.points[i + 1]) - a;
-    const double size2 = dot(d, d);
-    if (!(size2 > 0)) continue;
-    const DVec3 q = a + std::clamp(dot(p - a, d) / size2, 0.0, 1.0) * d;
-    if (const double d2 = dot(p - q, p - q); d2 < best.first) best = {d2, d / std::sqrt(size2)};
+    const double size = length(d);
+    if (!(size > 0)) continue;
+    const int count = int(std::ceil(std::min(size / std::max(width, 1e-300), kMost)));
+    for (int k = 0; k < count; ++k) pieces.push_back({a + d * (double(k) / count), d / double(count)});
+  }
+  return pieces;
+}
+
+/// The piece that passes nearest to a point, and the squared distance.
+std::pair<double, std::uint32_t> nearestPiece(const DVec3& p, const std::vector<StrokePiece>& pieces) {
+  std::pair<double, std::uint32_t> best{1e300, kNowhere};
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    const auto& [a, d, nearest] = pieces[i];
+    const DVec3 q = a + std::clamp(dot(p - a, d) / dot(d, d), 0.0, 1.0) * d;
+    if (const double d2 = dot(p - q, p - q); d2 < best.first) best = {d2, i};
   }
   return best;
+}
+
+double longestEdge2(const Surface& s, std::uint32_t v) {
+  double most = 0;
+  for (std::uint32_t i = s.spokeStart[v]; i < s.spokeStart[v + 1]; ++i)
+    most = std::max(most, s.length(s.spokes[i]) * s.length(s.spokes[i]));
+  return most;
 }
 
 Pull pullOfStrokes(const VertexConnection& c, const FieldOptions& options, Job& job) {
@@ -90,21 +115,28 @@ Pull pullOfStrokes(const VertexConnection& c, const FieldOptions& options, Job& 
   std::vector<DVec3> vectors(s.positions.size(), DVec3(0));
   CancelCheck check(job);
   for (const FieldStroke& stroke : options.strokes) {
-    // The vertex nearest to the stroke says which side of the surface is meant.
-    std::pair<double, std::uint32_t> nearest{1e300, kNowhere};
-    std::vector<std::pair<double, DVec3>> found(s.positions.size());
+    // The vertex nearest to each piece says which side of the surface is meant there.
+    std::vector<StrokePiece> pieces = piecesOf(stroke, width);
+    if (pieces.empty()) continue;
+    std::vector<std::pair<double, std::uint32_t>> found(s.positions.size());
     for (std::uint32_t v = 0; v < s.positions.size(); ++v) {
       check();
-      found[v] = nearestOnStroke(DVec3(s.positions[v]), stroke);
-      if (found[v].first < nearest.first) nearest = {found[v].first, v};
+      found[v] = nearestPiece(DVec3(s.positions[v]), pieces);
+      auto& nearest = pieces[found[v].second].nearest;
+      nearest = std::min(nearest, {found[v].first, v});
     }
-    if (nearest.second == kNowhere) continue;
+    double closest = 1e300;
+    for (const StrokePiece& piece : pieces) closest = std::min(closest, piece.nearest.first);
     for (std::uint32_t v = 0; v < s.positions.size(); ++v) {
-      const bool near = found[v].first <= width * width && c.component[v] == c.component[nearest.second] &&
-                        dot(normals[v], normals[nearest.second]) > 0;
-      if (!near && v != nearest.second) continue;
-      const double closeness = std::max(0.05, 1 - std::sqrt(found[v].first) / std::max(width, 1e-300));
-      vectors[v] += closeness * found[v].second;
+      const auto [d2, piece] = found[v];
+      const auto [least, nearest] = pieces[piece].nearest;
+      // On a mesh coarser than the stroke is wide, the vertices that it passes nearest to.
+      const bool caught = v == nearest && (d2 <= longestEdge2(s, v) || least == closest);
+      const bool inBand = d2 <= width * width && c.component[v] == c.component[nearest] &&
+                          dot(normals[v], normals[nearest]) > 0;
+      if (!caught && !inBand) continue;
+      const double closeness = std::max(0.05, 1 - std::sqrt(d2) / std::max(width, 1e-300));
+      vectors[v] += closeness * normalize(pieces[piece].way);
       pull.pulled[c.component[v]] = pull.any = true;
     }
   }

@@ -49,7 +49,8 @@ struct OrientationField {
 };
 
 /// `surface` is made of `mesh`. Strokes act on vertices within their width whose normal is within 90 degrees
-/// of that of the nearest vertex. Deterministic. Throws ValueError for options out of range, Cancelled.
+/// of that of the vertex nearest to the stroke there, and on coarse meshes on those that they pass nearest
+/// to. Deterministic. Throws ValueError for options out of range, Cancelled.
 OrientationField makeOrientationField(const TriMesh& mesh, const Surface& surface,
                                       const FieldOptions& options, Job& job);
 

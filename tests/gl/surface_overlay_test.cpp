@@ -100,7 +100,8 @@ TEST_F(SurfaceOverlayGl, SoIsPaintWithSquaresAndSeams) {
   overlay.setMarks(marks());
   Job job;
   const auto off = [&] {
-    const Image cpu = drawSurfaceOverlay(mesh, {}, paint, marks(), picture, job),
+    const SurfaceMarks over = marks();
+    const Image cpu = drawSurfaceOverlay(mesh, {}, paint, std::span(&over, 1), picture, job),
                 gpu = overlay.render(picture);
     std::size_t different = 0;
     for (std::size_t i = 0; i < cpu.data.size(); ++i)
@@ -114,6 +115,26 @@ TEST_F(SurfaceOverlayGl, SoIsPaintWithSquaresAndSeams) {
   EXPECT_LT(off(), 0.02);
   paint.colors.resize(1);
   EXPECT_THROW(overlay.setPaint(paint), ValueError);
+}
+
+TEST_F(SurfaceOverlayGl, SoAreLayersOfMarksWithSizesOfTheirOwn) {
+  std::vector<SurfaceMarks> layers(2, marks());
+  layers[0].points.clear(), layers[0].edges.clear(), layers[0].fill = 0.35f;
+  layers[1].triangles.clear(), layers[1].size = 2, layers[1].color = Rgb(0.2f, 0.6f, 0.9f);
+  Job job;
+  const auto off = [&](std::span<const SurfaceMarks> cpuLayers) {
+    const Image cpu = drawSurfaceOverlay(mesh, {}, {}, cpuLayers, picture, job),
+                gpu = overlay.render(picture);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < cpu.data.size(); ++i)
+      different += std::abs(cpu.data[i] - gpu.data[i]) > 2.5f / 255;
+    return double(different) / double(cpu.data.size());
+  };
+  overlay.setMarks(std::span<const SurfaceMarks>(layers));
+  EXPECT_LT(off(layers), 0.01);
+  EXPECT_GT(off(std::span(layers).first(1)), 0.01) << "the second layer is there";
+  layers[1].size = 1;
+  EXPECT_GT(off(layers), 0.002) << "and larger than the first";
 }
 
 /// The picture below is left as it is where nothing lies over it.

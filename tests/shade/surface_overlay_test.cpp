@@ -91,7 +91,7 @@ TEST(SurfaceOverlay, EdgesAndTrianglesCoverWhatTheyAreOn) {
   const Image line = drawn({}, edge), filled = drawn({}, face);
   for (int x = 65; x < 136; x += 10) EXPECT_NEAR(at(line, x, 100).w, 1, 0.3f);
   EXPECT_EQ(at(line, 100, 110).w, 0);
-  EXPECT_NEAR(at(filled, 100, 100).w, kMarkFill, 1e-3);
+  EXPECT_NEAR(at(filled, 100, 100).w, SurfaceMarks{}.fill, 1e-3);
   EXPECT_EQ(at(filled, 70, 70).w, 0);
 }
 
@@ -101,6 +101,20 @@ TEST(SurfaceOverlay, MarksThatLieOverEachOtherDoNotAddUp) {
   const Vec4 once = at(drawn({}, marks), 100, 100);
   marks.triangles.insert(marks.triangles.end(), marks.triangles.begin(), marks.triangles.begin() + 3);
   EXPECT_EQ(at(drawn({}, marks), 100, 100), once);
+}
+
+TEST(SurfaceOverlay, LayersLieOverEachOtherWithTheirOwnFillAndSize) {
+  std::vector<SurfaceMarks> layers(2);
+  layers[0].triangles = {{-0.4f, -0.4f, 0}, {0.4f, -0.4f, 0}, {0, 0.4f, 0}};
+  layers[0].color = Rgb(0, 0, 1), layers[0].fill = 0.25f;
+  layers[1].points = {Vec3(0)};
+  layers[1].color = Rgb(1, 0, 0);
+  Job job;
+  const auto draw = [&] { return drawSurfaceOverlay(square(), {}, {}, layers, picture(), job); };
+  EXPECT_NEAR(at(draw(), 100, 112).w, 0.25f, 1e-3) << "below the point";
+  EXPECT_NEAR(at(draw(), 100, 100).x, 1, 1e-3) << "the later layer is on top";
+  layers[1].size = 4;
+  EXPECT_NEAR(at(draw(), 100, 112).x, 1, 1e-3) << "and reaches further now";
 }
 
 TEST(SurfaceOverlay, WhatIsBehindTheCameraIsLeftOut) {

@@ -144,6 +144,47 @@ TEST(OrientationField, FollowsStrokes) {
   EXPECT_GT(checkedAcross, 20);
 }
 
+TEST(OrientationField, AStrokeThatGoesAroundActsAllTheWay) {
+  // Once around the equator and against the general course, all sides at once.
+  const Ready r(makeIcosphere({.subdivisions = 4}));
+  FieldStroke round;
+  for (int i = 0; i <= 48; ++i)
+    round.points.push_back(Vec3(DVec3(std::cos(2 * kPi * i / 48), 0, std::sin(2 * kPi * i / 48))));
+  const OrientationField field = fieldOn(r, {.strokes = {round}, .strokeWidth = 0.03});
+  int checked = 0;
+  for (std::uint32_t h = 0; h < 3 * r.mesh.triangleCount(); ++h) {
+    const Vec3& p = r.mesh.positions[r.mesh.triangles[h / 3][int(h % 3)]];
+    if (std::abs(p.y) > 0.04f) continue;
+    EXPECT_GT(dot(field.frames.tangents[h], normalize(Vec3(-p.z, 0, p.x))), 0.98f);
+    ++checked;
+  }
+  EXPECT_GT(checked, 200);
+}
+
+TEST(OrientationField, AThinStrokeActsOnACoarseMeshAsFarAsItGoes) {
+  // A broken line between rows of vertices, hundreds of times thinner than the mesh is coarse: it sets both
+  // ends.
+  const Ready r(makePlane({.width = 4, .columns = 48, .rows = 12}));
+  const float z = 0.02f;
+  const FieldStroke line{{Vec3(-2, 0, z), Vec3(0, 0, z), Vec3(0, 0, -0.5f)}};
+  const OrientationField field = fieldOn(r, {.strokes = {line}, .strokeWidth = 1e-4});
+  int along = 0, aside = 0;
+  for (std::uint32_t h = 0; h < 3 * r.mesh.triangleCount(); ++h) {
+    const Vec3& p = r.mesh.positions[r.mesh.triangles[h / 3][int(h % 3)]];
+    const Vec3& t = field.frames.tangents[h];
+    if (p.x < -1) {
+      ++along;
+      EXPECT_GT(t.x, 0.9f);
+    }
+    if (std::abs(p.x) < 0.01f && p.z < -0.2f) {
+      ++aside;
+      EXPECT_LT(t.z, -0.9f);
+    }
+  }
+  EXPECT_GT(along, 100);
+  EXPECT_GT(aside, 10);
+}
+
 TEST(OrientationField, PiecesHaveFieldsOfTheirOwn) {
   // Two spheres of different size: the eigenvector of the one is nothing on the other.
   TriMesh both = makeIcosphere({.radius = 1, .subdivisions = 3});

@@ -266,7 +266,7 @@ TEST_F(SceneDockTest, TheReportListsDefectsAndAClickShowsThem) {
   clickRow(defects(), int(lines.indexOf(s("1 hole: left open"))));
   ASSERT_TRUE(session.defects().shown());
   EXPECT_EQ(session.defects().shown()->kind, DefectKind::Holes);
-  EXPECT_EQ(session.layers().marks().edges.size(), 6u) << "a loop of three edges";
+  EXPECT_EQ(session.layers().marks().at(0).edges.size(), 6u) << "a loop of three edges";
   EXPECT_NE(session.view().camera(), camera) << "the view goes there";
   EXPECT_TRUE(child<QLabel>("defectMeaning").isVisible());
   session.view().setCamera(camera);
@@ -285,10 +285,10 @@ TEST_F(SceneDockTest, MarksFollowTheObjectAndGoWithIt) {
   session.open(brokenMesh());
   ASSERT_TRUE(settled());
   session.defects().show(0, DefectKind::UnreferencedVertices);
-  ASSERT_EQ(session.layers().marks().points.size(), 1u);
-  EXPECT_EQ(session.layers().marks().points[0], Vec3(5));
+  ASSERT_EQ(session.layers().marks().at(0).points.size(), 1u);
+  EXPECT_EQ(session.layers().marks().at(0).points[0], Vec3(5));
   session.document().set(s("objects[0].transform.translate"), s("[1,0,0]"));
-  EXPECT_EQ(session.layers().marks().points[0], Vec3(6, 5, 5));
+  EXPECT_EQ(session.layers().marks().at(0).points[0], Vec3(6, 5, 5));
   session.project().setQuestion({});  // the edit may go
   session.open(s("builtin:box"));
   ASSERT_TRUE(waitFor([this] { return !session.opening(); }));
@@ -299,10 +299,10 @@ TEST_F(SceneDockTest, SteppingThroughElements) {
   session.open(write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\nf 4 5 6\n"));
   ASSERT_TRUE(settled());
   clickRow(defects(), 0);
-  EXPECT_EQ(session.layers().marks().edges.size(), 12u);
+  EXPECT_EQ(session.layers().marks().at(0).edges.size(), 12u);
   EXPECT_EQ(child<QLabel>("defectPlace").text(), s("all 2"));
   click(child<QToolButton>("nextDefect"));
-  EXPECT_EQ(session.layers().marks().edges.size(), 6u);
+  EXPECT_EQ(session.layers().marks().at(0).edges.size(), 6u);
   EXPECT_EQ(child<QLabel>("defectPlace").text(), s("1 of 2"));
   click(child<QToolButton>("nextDefect"));
   click(child<QToolButton>("nextDefect"));

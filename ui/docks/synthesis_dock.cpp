@@ -2,14 +2,17 @@
 
 #include "libprt/project/laid_patch.h"
 #include "ui/docks/bake_footer.h"
+#include "ui/model/field_editor.h"
 #include "ui/model/session.h"
 #include "ui/widgets/image_convert.h"
 #include "ui/widgets/property_row.h"
 #include "ui/widgets/theme.h"
 
 #include <QCheckBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
+#include <QPushButton>
 
 namespace prt::ui {
 
@@ -27,6 +30,7 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
                      {"synthesis.mapping", "synthesis.scale", "synthesis.repeat", "synthesis.vertices",
                       "synthesis.jitter", "synthesis.passes", "synthesis.seed"});
   direction_ = makeRows(tr("Direction"), {"field.symmetry", "field.angle", "field.width"});
+  makeStrokes();
   texture_ = makeRows(tr("Id map"), {"idmap.size", "idmap.neighbours"});
   for (Section* section : {laying_, direction_, texture_}) add(section);
   map_->setObjectName(QStringLiteral("idMap"));
@@ -39,6 +43,8 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
   connect(&look_, &SynthesisLook::changed, this, &SynthesisDock::refreshResult);
   connect(&session_.bakes(), &BakeController::changed, this, &SynthesisDock::refreshResult);
   connect(&session_.document(), &Document::recipeChanged, this, &SynthesisDock::refresh);
+  connect(&session_.field(), &FieldEditor::changed, this, &SynthesisDock::refreshStrokes);
+  connect(&session_.painting(), &Painting::brushChanged, this, &SynthesisDock::refreshStrokes);
   connect(&session_.document(), &Document::opened, &look_, &SynthesisLook::forget);
   connect(&session_.jobs(), &JobRunner::changed, this, [this](quint64 id) {
     if (id == session_.bakes().job()) refreshResult();
@@ -74,6 +80,69 @@ Section* SynthesisDock::makeRows(const QString& title, const std::vector<const c
       grownRows_.push_back(row);
   }
   return section;
+}
+
+// Direct manipulation below the rows: strokes are drawn on the model.
+void SynthesisDock::makeStrokes() {
+  FieldEditor& field = session_.field();
+  Painting& painting = session_.painting();
+  auto* row = new QHBoxLayout;
+  row->setContentsMargins(0, 2, 0, 2);
+  row->setSpacing(kGrid);
+  const auto button = [&](const char* name, const QString& text, const QString& tip, auto run) {
+    auto* made = new QPushButton(text);
+    made->setObjectName(QLatin1String(name));
+    made->setToolTip(tip);
+    made->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    connect(made, &QPushButton::clicked, this, run);
+    row->addWidget(made, 1);
+    return made;
+  };
+  const QString strokes = parameterTip(parameterAt("field.strokes"));
+  draw_ = button(
+      "drawStrokes", tr("Draw strokes"),
+      tr("<p>The brush (D): drag on the model. Ctrl click erases, Esc leaves.</p>") + strokes,
+      [&painting] { painting.take(painting.brush() == Brush::Strokes ? Brush::None : Brush::Strokes); });
+  draw_->setCheckable(true);
+  erase_ = button("eraseStrokes", tr("Erase"), tr("The stroke that is selected; all of them while none is."),
+                  [&field] {
+                    if (field.selected() >= 0)
+                      field.erase(field.selected());
+                    else
+                      field.eraseAll();
+                  });
+  direction_->addLayout(row);
+  field_ = new QCheckBox(tr("Field on the surface"));
+  field_->setObjectName(QStringLiteral("showField"));
+  field_->setToolTip(tr(
+      "Lines along the orientation field, and dots where it must wind, with their index: turns of the field "
+      "there, in units of its symmetry."));
+  connect(field_, &QCheckBox::clicked, this, [&field](bool on) { field.setShown(on); });
+  direction_->add(field_);
+  strokes_ = new QLabel;
+  strokes_->setObjectName(QStringLiteral("strokesState"));
+  strokes_->setWordWrap(true);
+  direction_->add(strokes_);
+  refreshStrokes();
+}
+
+void SynthesisDock::refreshStrokes() {
+  const FieldEditor& field = session_.field();
+  draw_->setChecked(session_.painting().brush() == Brush::Strokes);
+  field_->setChecked(field.shown());
+  erase_->setEnabled(!field.strokes().empty());
+  erase_->setText(field.selected() >= 0 || field.strokes().size() < 2 ? tr("Erase") : tr("Erase all"));
+  const int count = int(field.strokes().size()), knots = int(field.knots().size());
+  QStringList words;
+  if (count > 0) words << (count == 1 ? tr("1 stroke") : tr("%1 strokes").arg(count));
+  if (!field.settled())
+    words << tr("field on its way\u2026");
+  else if (field.field())
+    words << (knots == 1 ? tr("winds in 1 place") : tr("winds in %1 places").arg(knots));
+  const bool failed = !field.error().isEmpty();
+  strokes_->setText(failed ? field.error() : words.join(QStringLiteral(" \u00b7 ")));
+  setRole(strokes_, failed ? "failed" : "muted");
+  strokes_->setVisible(!strokes_->text().isEmpty());
 }
 
 QString SynthesisDock::resultText() const {

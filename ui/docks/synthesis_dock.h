@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QLabel;
+class QPushButton;
 
 namespace prt::ui {
 
@@ -25,6 +26,8 @@ class SynthesisDock : public DockColumn {
   Section* makeShown();
   Section* makeRows(const QString& title, const std::vector<const char*>& paths);
   void refresh();
+  void makeStrokes();
+  void refreshStrokes();
   void refreshResult();
   QString resultText() const;
 
@@ -35,6 +38,9 @@ class SynthesisDock : public DockColumn {
   Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr;
   std::vector<PropertyRow*> grownRows_, laidRows_;
   QLabel* map_;
+  QPushButton *draw_ = nullptr, *erase_ = nullptr;
+  QCheckBox* field_ = nullptr;
+  QLabel* strokes_ = nullptr;
   BakeFooter* footer_;
 };
 

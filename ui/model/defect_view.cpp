@@ -63,7 +63,7 @@ void DefectView::step(int by) {
 void DefectView::hide() {
   if (!shown_) return;
   shown_.reset();
-  session_.layers().setMarks({});
+  session_.layers().setMarks(MarkOwner::Defects, {});
   Q_EMIT changed();
 }
 
@@ -80,7 +80,7 @@ void DefectView::apply(bool frame) {
   const auto& object = session_.document().recipe().objects[std::size_t(shown_->object)];
   const SurfaceMarks marks =
       object.visible ? marksOf(places, shown_->element, object.transform.matrix()) : SurfaceMarks{};
-  session_.layers().setMarks(marks);
+  session_.layers().setMarks(MarkOwner::Defects, {marks});
   Box3 box = marks.bounds();
   if (!frame || box.empty()) return;
   const float missing = 0.5f * (kSmallestFrame * session_.bounds().diagonal() - box.diagonal());

@@ -11,6 +11,8 @@
 #include "ui/model/defect_view.h"
 #include "ui/model/error_estimate.h"
 #include "ui/model/expression.h"
+#include "ui/model/field_editor.h"
+#include "ui/model/painting.h"
 #include "ui/model/scene_editor.h"
 
 #include <QDir>
@@ -53,7 +55,9 @@ Session::Session(QObject* parent)
       sceneEditor_(std::make_unique<SceneEditor>(*this)),
       charts_(std::make_unique<ChartEditor>(*this)),
       defects_(std::make_unique<DefectView>(*this)),
-      errors_(std::make_unique<ErrorEstimate>(*this)) {
+      errors_(std::make_unique<ErrorEstimate>(*this)),
+      painting_(std::make_unique<Painting>(*this)),
+      field_(std::make_unique<FieldEditor>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);
   connect(&bakes_, &BakeController::productArrived, this, &Session::take);

@@ -31,6 +31,8 @@ namespace prt::ui {
 class ChartEditor;
 class DefectView;
 class ErrorEstimate;
+class FieldEditor;
+class Painting;
 class SceneEditor;
 
 /// What the picture on screen is made with.
@@ -64,6 +66,8 @@ class Session : public QObject {
   SurfaceLayers& layers() { return layers_; }
   SceneEditor& sceneEditor() { return *sceneEditor_; }
   ChartEditor& charts() { return *charts_; }
+  Painting& painting() { return *painting_; }
+  FieldEditor& field() { return *field_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
   ProjectKeeper& project() { return project_; }
@@ -156,6 +160,8 @@ class Session : public QObject {
   std::unique_ptr<ChartEditor> charts_;
   std::unique_ptr<DefectView> defects_;
   std::unique_ptr<ErrorEstimate> errors_;
+  std::unique_ptr<Painting> painting_;
+  std::unique_ptr<FieldEditor> field_;
   SurfacePatch patch_{document_, bakes_, relighter_, jobs_};
 };
 

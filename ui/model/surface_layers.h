@@ -6,9 +6,13 @@
 
 #include <QObject>
 
+#include <array>
 #include <vector>
 
 namespace prt::ui {
+
+/// Who marks the surface; later ones lie over earlier ones.
+enum class MarkOwner { Wishes, Field, Defects };
 
 class SurfaceLayers : public QObject {
   Q_OBJECT
@@ -23,9 +27,13 @@ class SurfaceLayers : public QObject {
     ++valuesVersion_;
     Q_EMIT changed();
   }
-  void setMarks(SurfaceMarks marks) {
-    if (marks.empty() && marks_.empty()) return;
-    marks_ = std::move(marks);
+  /// Layers of marks, the lowest first. A picture of the model takes longer than comparing them.
+  void setMarks(MarkOwner owner, std::vector<SurfaceMarks> marks) {
+    std::vector<SurfaceMarks>& own = marked_[std::size_t(owner)];
+    if (own == marks) return;
+    own = std::move(marks);
+    marks_.clear();
+    for (const auto& layers : marked_) marks_.insert(marks_.end(), layers.begin(), layers.end());
     ++marksVersion_;
     Q_EMIT changed();
   }
@@ -41,7 +49,8 @@ class SurfaceLayers : public QObject {
 
   const std::vector<float>& values() const { return values_; }
   const SurfacePaint& paint() const { return paint_; }
-  const SurfaceMarks& marks() const { return marks_; }
+  /// Of all owners, the lowest first.
+  const std::vector<SurfaceMarks>& marks() const { return marks_; }
   bool empty() const { return values_.empty() && paint_.empty() && marks_.empty(); }
   // Each grows with every change.
   quint64 valuesVersion() const { return valuesVersion_; }
@@ -54,7 +63,8 @@ class SurfaceLayers : public QObject {
  private:
   std::vector<float> values_;
   SurfacePaint paint_;
-  SurfaceMarks marks_;
+  std::array<std::vector<SurfaceMarks>, 3> marked_;  // by owner
+  std::vector<SurfaceMarks> marks_;
   quint64 valuesVersion_ = 0, paintVersion_ = 0, marksVersion_ = 0;
 };
 

@@ -54,7 +54,7 @@ class CpuCanvas : public QWidget, public Canvas {
   struct Layers {
     std::vector<float> values;
     SurfacePaint paint;
-    SurfaceMarks marks;
+    std::vector<SurfaceMarks> marks;
     float pixelScale = 1;
     int grid = 1;
   };

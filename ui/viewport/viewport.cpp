@@ -1,9 +1,11 @@
 #include "ui/viewport/viewport.h"
 
 #include "ui/model/error_estimate.h"
+#include "ui/model/field_editor.h"
 #include "ui/model/session.h"
 #include "ui/viewport/cpu_canvas.h"
 #include "ui/viewport/error_legend.h"
+#include "ui/viewport/field_overlay.h"
 #include "ui/viewport/gl_canvas.h"
 #include "ui/viewport/manipulator.h"
 #include "ui/viewport/overlay.h"
@@ -51,6 +53,7 @@ Viewport::Viewport(Session& session, QWidget* parent) : QWidget(parent), session
   connect(&session_, &Session::statusChanged, this, [this] { canvas_->widget()->update(); });
   connect(&session_, &Session::selectionChanged, this, [this] { canvas_->widget()->update(); });
   connect(&session_.errors(), &ErrorEstimate::changed, this, [this] { canvas_->widget()->update(); });
+  connect(&session_.field(), &FieldEditor::changed, this, [this] { canvas_->widget()->update(); });
 }
 
 // ---- who draws ----
@@ -308,9 +311,11 @@ void Viewport::addManipulator(Manipulator* manipulator) {
 
 void Viewport::paintOver(QPainter& painter) {
   const ViewGeometry view(session_.view().camera(), size());
-  if (session_.relighter().scene())
+  if (session_.relighter().scene()) {
+    paintField(painter, view, session_);
     for (Manipulator* each : manipulators_)
       if (each->enabled()) each->paint(painter, view);
+  }
   paintOverlay(painter, size(), session_, pictureMode_ ? nullptr : canvas_);
   paintErrorLegend(painter, size(), session_);
 }

@@ -11,6 +11,7 @@
 #include "ui/window/command_palette.h"
 #include "ui/window/keys_overlay.h"
 #include "ui/window/layouts.h"
+#include "ui/window/synthesis_actions.h"
 
 #include <QActionGroup>
 #include <QApplication>
@@ -109,6 +110,7 @@ void makeMenus(QMainWindow& window, const MenuTargets& targets) {
   fillEdit(*bar.addMenu(tr("&Edit")), targets);
   fillView(*bar.addMenu(tr("&View")), targets);
   fillChartMenu(*bar.addMenu(tr("&Charts")), targets.session, targets.charts, targets.showCharts);
+  fillSynthesisMenu(*bar.addMenu(tr("&Synthesis")), targets.session, targets.showSynthesis);
   fillHelp(*bar.addMenu(tr("&Help")), targets);
   bar.setCornerWidget(&targets.strip, Qt::TopRightCorner);
 }

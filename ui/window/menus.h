@@ -29,7 +29,8 @@ struct MenuTargets {
   ViewActions& view;
   LightHandles& lightHandles;
   ChartDock& charts;
-  std::function<void()> showCharts;  ///< brings their dock to light
+  std::function<void()> showCharts;     ///< brings their dock to light
+  std::function<void()> showSynthesis;  ///< and that of synthesis
   Layouts& layouts;
   WorkflowStrip& strip;  ///< gets the layouts as buttons, too
   CommandPalette& palette;

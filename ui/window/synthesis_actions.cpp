@@ -1,0 +1,62 @@
+#include "ui/window/synthesis_actions.h"
+
+#include "ui/model/field_editor.h"
+#include "ui/model/session.h"
+
+#include <QMenu>
+
+namespace prt::ui {
+
+namespace {
+
+QString tr(const char* text) {
+  return QObject::tr(text);
+}
+
+QAction* add(QMenu& menu, const char* name, const QString& text, const QString& tip,
+             std::function<void()> run) {
+  QAction* action = menu.addAction(text, &menu, [run = std::move(run)] { run(); });
+  action->setObjectName(QLatin1String(name));
+  action->setToolTip(tip);
+  action->setStatusTip(tip);
+  return action;
+}
+
+}  // namespace
+
+void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()>& show) {
+  menu.setToolTipsVisible(true);
+  FieldEditor& field = session.field();
+  Painting& painting = session.painting();
+  const auto toggle = [&painting, show](Brush brush) {
+    return [&painting, show, brush] {
+      const bool takes = painting.brush() != brush;
+      if (takes) show();
+      painting.take(takes ? brush : Brush::None);
+    };
+  };
+  QAction* strokes =
+      add(menu, "paintStrokes", tr("&Draw strokes"),
+          tr("Drag on the model: the patch is laid along what is drawn."), toggle(Brush::Strokes));
+  strokes->setCheckable(true);
+  strokes->setShortcut(QKeySequence(Qt::Key_D));
+  QAction* erase = add(menu, "eraseStroke", tr("&Erase stroke"), tr("The one that is selected."),
+                       [&field] { field.erase(field.selected()); });
+  QAction* all = add(menu, "eraseStrokes", tr("Erase &all strokes"),
+                     tr("The field is as smooth as it can be."), [&field] { field.eraseAll(); });
+  QAction* shown = add(menu, "showField", tr("Show the &field"),
+                       tr("Lines along the orientation field, and dots where it winds."),
+                       [&field] { field.setShown(!field.shown()); });
+  shown->setCheckable(true);
+  const auto follow = [&field, &painting, strokes, erase, all, shown] {
+    strokes->setChecked(painting.brush() == Brush::Strokes);
+    erase->setEnabled(field.selected() >= 0);
+    all->setEnabled(!field.strokes().empty());
+    shown->setChecked(field.shown());
+  };
+  QObject::connect(&field, &FieldEditor::changed, &menu, follow);
+  QObject::connect(&painting, &Painting::brushChanged, &menu, follow);
+  follow();
+}
+
+}  // namespace prt::ui
