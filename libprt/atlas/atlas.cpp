@@ -105,9 +105,12 @@ Atlas placeAtlas(const FlatCharts& charts, std::vector<ChartPlacement> placement
 }
 
 Atlas packAtlas(const FlatCharts& charts, const AtlasOptions& options, Job& job) {
+  constexpr double kTrianglesOfEffort = 25000;
   std::vector<PackChart> outlines;
+  std::size_t triangles = 0;
   for (std::size_t c = 0; c < charts.charts.charts.size(); ++c) {
     const Chart& chart = charts.charts.charts[c];
+    triangles += chart.faces.size();
     if (chart.fault() != ChartFault::None || charts.uv[c].size() != chart.vertices.size())
       throw GeometryError("cannot be laid flat: " + faultText(chart), chartName(c),
                           "cut it there, or repair the mesh");
@@ -117,7 +120,10 @@ Atlas packAtlas(const FlatCharts& charts, const AtlasOptions& options, Job& job)
     outline.flatArea = charts.stretch[c].flatArea;
     if (c < options.weights.size()) outline.weight = options.weights[c];
   }
-  return placeAtlas(charts, packCharts(outlines, options.locked, options.pack, job), options.pack, job);
+  // Cutting and laying flat grow with the mesh: so may packing, and stays a small part of the whole.
+  PackOptions pack = options.pack;
+  pack.effort *= std::clamp(double(triangles) / kTrianglesOfEffort, 1.0, 4.0);
+  return placeAtlas(charts, packCharts(outlines, options.locked, pack, job), pack, job);
 }
 
 std::string toString(UvProblem::Kind kind) {

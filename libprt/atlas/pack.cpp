@@ -84,7 +84,7 @@ std::vector<ChartPlacement> packCharts(std::span<const PackChart> charts,
   job.begin("packing", 3, "passes");
   constexpr int kCoarse = 256, kFine = 512;        // cells
   constexpr double kWork = 600, kFineWork = 1400;  // charts placed
-  PackLayout layout = searchLayout(task, std::min(options.size, kCoarse), kWork, job);
+  PackLayout layout = searchLayout(task, std::min(options.size, kCoarse), kWork * options.effort, job);
   job.advance(1);
   if (layout.part > 0 && options.size > kCoarse)
     layout = searchLayout(task, std::min(options.size, kFine), kFineWork, job, &layout);

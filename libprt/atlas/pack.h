@@ -32,9 +32,10 @@ struct PackChart {
 };
 
 struct PackOptions {
-  int size = 2048;  ///< texels along a side
-  int gutter = 1;   ///< empty texels around each chart, hence twice as many between two
-  int turns = 16;   ///< directions tried per chart, 1..64; from 8 on others between them too
+  int size = 2048;    ///< texels along a side
+  int gutter = 1;     ///< empty texels around each chart, hence twice as many between two
+  int turns = 16;     ///< directions tried per chart, 1..64; from 8 on others between them too
+  double effort = 1;  ///< how long orders of charts are tried, against what is right for small meshes
 };
 
 /// Places charts that are not locked at one common scale, as large as goes in: sides of texels are covered

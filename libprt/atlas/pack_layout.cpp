@@ -58,7 +58,8 @@ class LayoutSearch {
   void grow() {
     std::vector<std::vector<std::uint32_t>> orders(kChains, best_.order);
     const double share = work_ / double(task_.free.size() * kChains);
-    const int rounds = std::clamp(int(share), 1, task_.free.size() < 16 ? 8 : 24);
+    const int most = int((task_.free.size() < 16 ? 8 : 24) * task_.options.effort);
+    const int rounds = std::clamp(int(share), 1, most);
     double step = 0.02;
     int failures = 0;
     for (int round = 0; round < rounds && step > 0.002; ++round) {
