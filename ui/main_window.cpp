@@ -19,6 +19,7 @@
 #include "ui/viewport/stroke_brush.h"
 #include "ui/viewport/view_actions.h"
 #include "ui/viewport/viewport.h"
+#include "ui/viewport/wish_brush.h"
 #include "ui/widgets/chart_view.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
@@ -87,6 +88,8 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
                            [this](const QPointF& at) { return viewport_->pick(at); })),
       strokeBrush_(new StrokeBrush(session.field(), session.painting(),
                                    [this](const QPointF& at) { return viewport_->pick(at); })),
+      wishBrush_(new WishBrush(session.wishes(), session.painting(),
+                               [this](const QPointF& at) { return viewport_->pick(at); })),
       message_(new MessageBar(viewport_)),
       recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
@@ -97,6 +100,7 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   // Tools come before what they work among.
   viewport_->addManipulator(cutTool_);
   viewport_->addManipulator(strokeBrush_);
+  viewport_->addManipulator(wishBrush_);
   viewport_->addManipulator(lightHandles_);
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);

@@ -4,6 +4,7 @@
 #include "ui/model/chart_editor.h"
 #include "ui/model/field_editor.h"
 #include "ui/model/session.h"
+#include "ui/model/wish_editor.h"
 #include "ui/viewport/viewport.h"
 #include "ui/window/command_palette.h"
 #include "ui/window/keys_overlay.h"
@@ -29,6 +30,7 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
   window.setPictureMode(true);
   if (!options.dock.isEmpty()) window.bringToFront(options.dock);
   session.field().setShown(options.showField);
+  session.wishes().setShown(options.showWishes);
   QTimer poll;
   int calm = 0;
   bool cut = !options.autoCut;
@@ -37,8 +39,8 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
       cut = true;
       session.charts().autoCut();
     }
-    const bool done = cut && session.field().settled() && session.settled() && session.bakes().fresh() &&
-                      window.viewport().canvas().settled();
+    const bool done = cut && session.field().settled() && session.wishes().settled() && session.settled() &&
+                      session.bakes().fresh() && window.viewport().canvas().settled();
     calm = done ? calm + 1 : 0;
     if (calm >= kCalm || !problem.isEmpty()) QApplication::exit();
   });

@@ -12,10 +12,10 @@ class Session;
 
 struct ScreenshotOptions {
   QString file;
-  QString dock;            ///< brought to the front of its place first; empty leaves the docks as they are
-  QString sheet;           ///< "palette" or "keys": opened over the window
-  bool autoCut = false;    ///< charts are cut first
-  bool showField = false;  ///< the orientation field lies on the model
+  QString dock;          ///< brought to the front of its place first; empty leaves the docks as they are
+  QString sheet;         ///< "palette" or "keys": opened over the window
+  bool autoCut = false;  ///< charts are cut first
+  bool showField = false, showWishes = false;  ///< what is painted lies on the model
 };
 
 /// Waits until everything is loaded, baked and drawn to its last pass, writes the window with all that lies

@@ -53,6 +53,8 @@ Options parse(const QApplication& application) {
         QStringLiteral("cut charts before the picture is taken; with --dock charts")},
        {QStringLiteral("show-field"),
         QStringLiteral("lay the orientation field over the model; with --dock synthesis")},
+       {QStringLiteral("show-wishes"),
+        QStringLiteral("show where parts of the patch are wished for; with --dock synthesis")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
         QStringLiteral("NAME")},
        {QStringLiteral("errors"),
@@ -82,6 +84,7 @@ Options parse(const QApplication& application) {
   options.screenshot.dock = parser.value(QStringLiteral("dock"));
   options.screenshot.autoCut = parser.isSet(QStringLiteral("auto-cut"));
   options.screenshot.showField = parser.isSet(QStringLiteral("show-field"));
+  options.screenshot.showWishes = parser.isSet(QStringLiteral("show-wishes"));
   options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
   if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
       options.screenshot.sheet != u"keys")

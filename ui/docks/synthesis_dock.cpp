@@ -4,7 +4,10 @@
 #include "ui/docks/bake_footer.h"
 #include "ui/model/field_editor.h"
 #include "ui/model/session.h"
+#include "ui/model/wish_editor.h"
+#include "ui/widgets/exemplar_square.h"
 #include "ui/widgets/image_convert.h"
+#include "ui/widgets/number_field.h"
 #include "ui/widgets/property_row.h"
 #include "ui/widgets/theme.h"
 
@@ -31,8 +34,9 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
                       "synthesis.jitter", "synthesis.passes", "synthesis.seed"});
   direction_ = makeRows(tr("Direction"), {"field.symmetry", "field.angle", "field.width"});
   makeStrokes();
+  makeWishes();
   texture_ = makeRows(tr("Id map"), {"idmap.size", "idmap.neighbours"});
-  for (Section* section : {laying_, direction_, texture_}) add(section);
+  for (Section* section : {laying_, direction_, parts_, texture_}) add(section);
   map_->setObjectName(QStringLiteral("idMap"));
   map_->setAlignment(Qt::AlignCenter);
   map_->setToolTip(tr("The place in the patch of every texel of the atlas: u in red, v in green."));
@@ -45,6 +49,8 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
   connect(&session_.document(), &Document::recipeChanged, this, &SynthesisDock::refresh);
   connect(&session_.field(), &FieldEditor::changed, this, &SynthesisDock::refreshStrokes);
   connect(&session_.painting(), &Painting::brushChanged, this, &SynthesisDock::refreshStrokes);
+  connect(&session_.wishes(), &WishEditor::changed, this, &SynthesisDock::refreshWishes);
+  connect(&session_.painting(), &Painting::brushChanged, this, &SynthesisDock::refreshWishes);
   connect(&session_.document(), &Document::opened, &look_, &SynthesisLook::forget);
   connect(&session_.jobs(), &JobRunner::changed, this, [this](quint64 id) {
     if (id == session_.bakes().job()) refreshResult();
@@ -82,35 +88,37 @@ Section* SynthesisDock::makeRows(const QString& title, const std::vector<const c
   return section;
 }
 
+QPushButton* SynthesisDock::makeButton(QHBoxLayout* row, const char* name, const QString& text,
+                                       const QString& tip, std::function<void()> run) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(QLatin1String(name));
+  button->setToolTip(tip);
+  button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  connect(button, &QPushButton::clicked, this, [run = std::move(run)] { run(); });
+  row->setContentsMargins(0, 2, 0, 2);
+  row->setSpacing(kGrid);
+  row->addWidget(button, 1);
+  return button;
+}
+
 // Direct manipulation below the rows: strokes are drawn on the model.
 void SynthesisDock::makeStrokes() {
   FieldEditor& field = session_.field();
   Painting& painting = session_.painting();
   auto* row = new QHBoxLayout;
-  row->setContentsMargins(0, 2, 0, 2);
-  row->setSpacing(kGrid);
-  const auto button = [&](const char* name, const QString& text, const QString& tip, auto run) {
-    auto* made = new QPushButton(text);
-    made->setObjectName(QLatin1String(name));
-    made->setToolTip(tip);
-    made->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-    connect(made, &QPushButton::clicked, this, run);
-    row->addWidget(made, 1);
-    return made;
-  };
-  const QString strokes = parameterTip(parameterAt("field.strokes"));
-  draw_ = button(
-      "drawStrokes", tr("Draw strokes"),
-      tr("<p>The brush (D): drag on the model. Ctrl click erases, Esc leaves.</p>") + strokes,
+  draw_ = makeButton(
+      row, "drawStrokes", tr("Draw strokes"),
+      tr("<p>The brush (D): drag on the model. Ctrl click erases, Esc leaves.</p>") +
+          parameterTip(parameterAt("field.strokes")),
       [&painting] { painting.take(painting.brush() == Brush::Strokes ? Brush::None : Brush::Strokes); });
   draw_->setCheckable(true);
-  erase_ = button("eraseStrokes", tr("Erase"), tr("The stroke that is selected; all of them while none is."),
-                  [&field] {
-                    if (field.selected() >= 0)
-                      field.erase(field.selected());
-                    else
-                      field.eraseAll();
-                  });
+  erase_ = makeButton(row, "eraseStrokes", tr("Erase"),
+                      tr("The stroke that is selected; all of them while none is."), [&field] {
+                        if (field.selected() >= 0)
+                          field.erase(field.selected());
+                        else
+                          field.eraseAll();
+                      });
   direction_->addLayout(row);
   field_ = new QCheckBox(tr("Field on the surface"));
   field_->setObjectName(QStringLiteral("showField"));
@@ -124,6 +132,60 @@ void SynthesisDock::makeStrokes() {
   strokes_->setWordWrap(true);
   direction_->add(strokes_);
   refreshStrokes();
+}
+
+// Which part of the patch, and where: picked on its picture, painted on the model.
+void SynthesisDock::makeWishes() {
+  WishEditor& wishes = session_.wishes();
+  Painting& painting = session_.painting();
+  parts_ = new Section(tr("Parts of the patch"));
+  parts_->add(new ExemplarSquare(session_));
+  width_ = new NumberField({.low = WishEditor::kLeastWidth,
+                            .high = WishEditor::kMostWidth,
+                            .decimals = 3,
+                            .logarithmic = true,
+                            .unit = QString::fromStdString(parameterAt("field.width").unit)});
+  width_->setObjectName(QStringLiteral("brushWidth"));
+  connect(width_, &NumberField::edited, this, [&wishes](double width) { wishes.setWidth(float(width)); });
+  parts_->add(
+      fieldRow(tr("Brush"), width_,
+               tr("Radius of the brush relative to the diagonal of the bounding box; [ and ] change it "
+                  "while painting.")));
+  auto* row = new QHBoxLayout;
+  const QString wish = parameterTip(parameterAt("synthesis.wishes"));
+  paint_ = makeButton(
+      row, "paintWishes", tr("Paint part"),
+      tr("<p>The brush (W): drag on the model; what is painted takes the part that is circled "
+         "above. Ctrl erases, Esc leaves.</p>") +
+          wish,
+      [&painting] { painting.take(painting.brush() == Brush::Wishes ? Brush::None : Brush::Wishes); });
+  paint_->setCheckable(true);
+  clear_ = makeButton(row, "eraseWishes", tr("Erase all"), wish, [&wishes] { wishes.eraseAll(); });
+  parts_->addLayout(row);
+  wishes_ = new QCheckBox(tr("Wishes on the surface"));
+  wishes_->setObjectName(QStringLiteral("showWishes"));
+  wishes_->setToolTip(
+      tr("Where parts of the patch are wished for: u of the part in red, v in green, as in the id map."));
+  connect(wishes_, &QCheckBox::clicked, this, [&wishes](bool on) { wishes.setShown(on); });
+  parts_->add(wishes_);
+  spots_ = new QLabel;
+  spots_->setObjectName(QStringLiteral("wishesState"));
+  spots_->setWordWrap(true);
+  parts_->add(spots_);
+  refreshWishes();
+}
+
+void SynthesisDock::refreshWishes() {
+  const WishEditor& wishes = session_.wishes();
+  paint_->setChecked(session_.painting().brush() == Brush::Wishes);
+  clear_->setEnabled(!wishes.wishes().empty());
+  wishes_->setChecked(wishes.shown());
+  width_->setValue(double(wishes.width()));
+  const int count = int(wishes.wishes().size());
+  const bool failed = !wishes.error().isEmpty();
+  spots_->setText(failed ? wishes.error() : count == 1 ? tr("1 spot") : tr("%1 spots").arg(count));
+  setRole(spots_, failed ? "failed" : "muted");
+  spots_->setVisible(failed || count > 0);
 }
 
 void SynthesisDock::refreshStrokes() {
@@ -173,6 +235,7 @@ void SynthesisDock::refresh() {
     row->setVisible(grown && (row->path() != u"field.width" || !recipe.field.strokes.empty()));
   for (PropertyRow* row : laidRows_) row->setVisible(!grown);
   direction_->setVisible(grown);
+  parts_->setVisible(grown && patch);
   texture_->setVisible(grown);
   refreshResult();
 }

@@ -5,15 +5,18 @@
 #include "ui/model/synthesis_look.h"
 #include "ui/widgets/section.h"
 
+#include <functional>
 #include <vector>
 
 class QCheckBox;
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
 namespace prt::ui {
 
 class BakeFooter;
+class NumberField;
 class PropertyRow;
 class Session;
 
@@ -28,6 +31,11 @@ class SynthesisDock : public DockColumn {
   void refresh();
   void makeStrokes();
   void refreshStrokes();
+  void makeWishes();
+  void refreshWishes();
+  /// Shares the row in equal parts, however narrow the dock is.
+  QPushButton* makeButton(QHBoxLayout* row, const char* name, const QString& text, const QString& tip,
+                          std::function<void()> run);
   void refreshResult();
   QString resultText() const;
 
@@ -35,12 +43,15 @@ class SynthesisDock : public DockColumn {
   SynthesisLook look_;
   QCheckBox* shown_;
   PropertyRow* views_ = nullptr;
-  Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr;
+  Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr, *parts_ = nullptr;
   std::vector<PropertyRow*> grownRows_, laidRows_;
   QLabel* map_;
   QPushButton *draw_ = nullptr, *erase_ = nullptr;
   QCheckBox* field_ = nullptr;
-  QLabel* strokes_ = nullptr;
+  QPushButton *paint_ = nullptr, *clear_ = nullptr;
+  QCheckBox* wishes_ = nullptr;
+  NumberField* width_ = nullptr;
+  QLabel *strokes_ = nullptr, *spots_ = nullptr;
   BakeFooter* footer_;
 };
 

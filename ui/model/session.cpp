@@ -14,6 +14,7 @@
 #include "ui/model/field_editor.h"
 #include "ui/model/painting.h"
 #include "ui/model/scene_editor.h"
+#include "ui/model/wish_editor.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -57,7 +58,8 @@ Session::Session(QObject* parent)
       defects_(std::make_unique<DefectView>(*this)),
       errors_(std::make_unique<ErrorEstimate>(*this)),
       painting_(std::make_unique<Painting>(*this)),
-      field_(std::make_unique<FieldEditor>(*this)) {
+      field_(std::make_unique<FieldEditor>(*this)),
+      wishes_(std::make_unique<WishEditor>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);
   connect(&bakes_, &BakeController::productArrived, this, &Session::take);

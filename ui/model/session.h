@@ -34,6 +34,7 @@ class ErrorEstimate;
 class FieldEditor;
 class Painting;
 class SceneEditor;
+class WishEditor;
 
 /// What the picture on screen is made with.
 struct PictureStatus {
@@ -68,6 +69,7 @@ class Session : public QObject {
   ChartEditor& charts() { return *charts_; }
   Painting& painting() { return *painting_; }
   FieldEditor& field() { return *field_; }
+  WishEditor& wishes() { return *wishes_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
   ProjectKeeper& project() { return project_; }
@@ -162,6 +164,7 @@ class Session : public QObject {
   std::unique_ptr<ErrorEstimate> errors_;
   std::unique_ptr<Painting> painting_;
   std::unique_ptr<FieldEditor> field_;
+  std::unique_ptr<WishEditor> wishes_;
   SurfacePatch patch_{document_, bakes_, relighter_, jobs_};
 };
 

@@ -2,6 +2,7 @@
 
 #include "ui/model/field_editor.h"
 #include "ui/model/session.h"
+#include "ui/model/wish_editor.h"
 
 #include <QMenu>
 
@@ -27,6 +28,7 @@ QAction* add(QMenu& menu, const char* name, const QString& text, const QString& 
 void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()>& show) {
   menu.setToolTipsVisible(true);
   FieldEditor& field = session.field();
+  WishEditor& wishes = session.wishes();
   Painting& painting = session.painting();
   const auto toggle = [&painting, show](Brush brush) {
     return [&painting, show, brush] {
@@ -48,13 +50,34 @@ void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()
                        tr("Lines along the orientation field, and dots where it winds."),
                        [&field] { field.setShown(!field.shown()); });
   shown->setCheckable(true);
-  const auto follow = [&field, &painting, strokes, erase, all, shown] {
+  menu.addSeparator();
+  QAction* parts =
+      add(menu, "paintParts", tr("Paint &parts"),
+          tr("Drag on the model: what is painted takes the part of the patch that was picked in the "
+             "Synthesis dock."),
+          toggle(Brush::Wishes));
+  parts->setCheckable(true);
+  parts->setShortcut(QKeySequence(Qt::Key_W));
+  QAction* none = add(menu, "eraseParts", tr("E&rase all wishes"), tr("The patch goes where it fits best."),
+                      [&wishes] { wishes.eraseAll(); });
+  QAction* partsShown =
+      add(menu, "showParts", tr("Show &wishes"), tr("Where parts of the patch are wished for."),
+          [&wishes] { wishes.setShown(!wishes.shown()); });
+  partsShown->setCheckable(true);
+  const auto follow = [&session, &field, &wishes, &painting, strokes, erase, all, shown, parts, none,
+                       partsShown] {
     strokes->setChecked(painting.brush() == Brush::Strokes);
     erase->setEnabled(field.selected() >= 0);
     all->setEnabled(!field.strokes().empty());
     shown->setChecked(field.shown());
+    parts->setChecked(painting.brush() == Brush::Wishes);
+    parts->setEnabled(session.document().recipe().patch.model != PatchModel::None);
+    none->setEnabled(!wishes.wishes().empty());
+    partsShown->setChecked(wishes.shown());
   };
   QObject::connect(&field, &FieldEditor::changed, &menu, follow);
+  QObject::connect(&wishes, &WishEditor::changed, &menu, follow);
+  QObject::connect(&session.document(), &Document::recipeChanged, &menu, follow);
   QObject::connect(&painting, &Painting::brushChanged, &menu, follow);
   follow();
 }

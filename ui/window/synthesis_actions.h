@@ -1,5 +1,6 @@
 #pragma once
-// The menu of what lays the patch over the surface: strokes that the orientation field follows.
+// The menu of what lays the patch over the surface: strokes that the orientation field follows,
+// wishes for parts of the patch.
 
 #include <functional>
 
