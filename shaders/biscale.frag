@@ -1,6 +1,7 @@
 #version 450 core
 // Both scales together, as shade/biscale.h: light at the triangle's corners, each in its own frame, is
 // interpolated and meets the patch's response there, between the views around the viewer's.
+//   FILTER  the response of all that the pixel covers
 in vec3 vPosition;
 layout(location = 0) out vec4 colour;
 
@@ -28,23 +29,28 @@ const uint kEmpty = 65535u;
 vec3 normalOf(uint v) { return vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]); }
 vec3 tangentOf(uint corner) { return vec3(tangents[3 * corner], tangents[3 * corner + 1], tangents[3 * corner + 2]); }
 
+uvec2 cellOf(uvec2 id) { return min((2u * id + 1u) * uint(side) / 131070u, uvec2(side - 1)); }  // of (id + 1/2) / 65535
+
 // The texel of the patch that is shown here; false where there is none.
 bool texelHere(vec3 weight, out uint texel) {
   uint corner = 3u * uint(gl_PrimitiveID);
   vec2 place = weight.x * coordinates[corner] + weight.y * coordinates[corner + 1] + weight.z * coordinates[corner + 2];
   uvec2 cell;
   if (mapSize == 0) {
-    cell = uvec2((place - floor(place)) * float(side));
+    cell = min(uvec2((place - floor(place)) * float(side)), uvec2(side - 1));
   } else {
     ivec2 at = clamp(ivec2(place.x * float(mapSize), (1.0 - place.y) * float(mapSize)), ivec2(0), ivec2(mapSize - 1));
     uvec2 id = texelFetch(ids, at, 0).xy;
     if (id.x == kEmpty) return false;
-    cell = (2u * id + 1u) * uint(side) / 131070u;  // of (id + 1/2) / 65535
+    cell = cellOf(id);
   }
-  cell = min(cell, uvec2(side - 1));
   texel = cell.y * uint(side) + cell.x;
   return true;
 }
+
+#ifdef FILTER
+#include "patch_filter.glsl"
+#endif
 
 // Along the patch's +u: TangentFrames at this place.
 vec3 tangentHere(vec3 weight, vec3 normal) {
@@ -67,18 +73,33 @@ vec3 localView(uvec3 t, vec3 weight) {
   return vec3(dot(view, tangent), dot(view, cross(normal, tangent)), dot(view, normal));
 }
 
+// Adds eight functions of a texel's response, between the views around the viewer's.
+uvec4 view;
+vec4 share;
+#define ADD(table, number, factor) \
+  { \
+    ivec4 block = ivec4(((number) * uint(viewSide * viewSide) + view) * uint(channels * groups)) + at; \
+    for (int i = 0; i < 4; ++i) { \
+      uvec4 halfs = texelFetch(table, block[i]); \
+      low += (factor) * share[i] * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y)); \
+      high += (factor) * share[i] * vec4(unpackHalf2x16(halfs.z), unpackHalf2x16(halfs.w)); \
+    } \
+  }
+
 void main() {
   colour = vec4(0.0, 0.0, 0.0, 1.0);
   if (!gl_FrontFacing) return;
   uvec3 t = triangle();
   vec3 weight = barycentric(t);
   uint texel;
+#ifdef FILTER
+  bool filtered = filterHere(t, weight);
+  if (!filtered && !texelHere(weight, texel)) return;
+#else
   if (!texelHere(weight, texel)) return;
-  uvec4 view;
-  vec4 share;
+#endif
   viewsAround(localView(t, weight), viewSide, view, share);
 
-  ivec4 block = ivec4((texel * uint(viewSide * viewSide) + view) * uint(channels * groups));
   ivec3 corner = ivec3(t * uint(6 * groups));
   vec3 sum = vec3(0.0);
   for (int k = 0; k < groups; ++k) {
@@ -87,11 +108,14 @@ void main() {
       if (c < channels) {
         int at = c * groups + k;
         low = high = vec4(0.0);
-        for (int i = 0; i < 4; ++i) {
-          uvec4 halfs = texelFetch(responses, block[i] + at);
-          low += share[i] * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y));
-          high += share[i] * vec4(unpackHalf2x16(halfs.z), unpackHalf2x16(halfs.w));
-        }
+#ifdef FILTER
+        if (filtered) {
+          for (int e = 0; e < exactCount; ++e) ADD(responses, exactTexel[e], exactWeight[e])
+          if (coarseToo)
+            for (int e = 0; e < termCount; ++e) ADD(terms, uint(e), coefficient[e])
+        } else
+#endif
+          ADD(responses, texel, 1.0)
       }
       ivec3 at = corner + 2 * (c * groups + k);
       vec4 lightLow = weight.x * texelFetch(light, at.x) + weight.y * texelFetch(light, at.y) + weight.z * texelFetch(light, at.z);

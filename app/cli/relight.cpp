@@ -18,11 +18,15 @@ namespace fs = std::filesystem;
 
 struct Options {
   ViewOptions view;
-  std::string method, window, backend = "cpu";
+  std::string method, window, filter, backend = "cpu";
 };
 
 fs::path folderOf(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+const PatchFilter* filterOf(const BakedScene& baked, const Recipe& recipe) {
+  return recipe.method.name == "biscale" && baked.patch ? baked.patch->filter.get() : nullptr;
 }
 
 void relightProject(Session& session, const Options& options) {
@@ -30,6 +34,7 @@ void relightProject(Session& session, const Options& options) {
   const auto project = ProjectFile::open(options.view.project);
   Recipe recipe = project->recipe();
   if (!options.method.empty()) setByPath(recipe, "method.name", options.method);
+  if (!options.filter.empty()) setByPath(recipe, "method.filter", options.filter == "on" ? "true" : "false");
   if (!options.window.empty()) setByPath(recipe, "method.window", options.window);
   const fs::path folder = folderOf(options.view.project);
   Pipeline pipeline(project.get(), {folder});
@@ -48,13 +53,19 @@ void relightProject(Session& session, const Options& options) {
   writePicture(options.view.output, image, options.view.exposure);
   session.say(fmt::format("wrote {} ({} x {}, {:.0f} ms)", options.view.output, view.width, view.height,
                           1000 * seconds));
-  session.result({{"output", options.view.output},
-                  {"width", view.width},
-                  {"height", view.height},
-                  {"backend", options.backend},
-                  {"seconds", seconds},
-                  {"level", baked.level},
-                  {"levels", baked.levels}});
+  nlohmann::json result{{"output", options.view.output}, {"width", view.width}, {"height", view.height},
+                        {"backend", options.backend},    {"seconds", seconds},  {"level", baked.level},
+                        {"levels", baked.levels}};
+  if (const PatchFilter* filter = filterOf(baked, recipe)) {
+    session.say(fmt::format("filtered by {} terms (error {:.2f} %), {} levels, {:.1f} MB",
+                            PatchFilter::kTerms, 100 * filter->error(), filter->levels(),
+                            double(filter->bytes()) * 1e-6));
+    result["filter"] = {{"terms", PatchFilter::kTerms},
+                        {"error", filter->error()},
+                        {"levels", filter->levels()},
+                        {"bytes", filter->bytes()}};
+  }
+  session.result(result);
 }
 
 }  // namespace
@@ -69,6 +80,11 @@ void addRelight(CLI::App& app, Action& action) {
       ->add_option("--window", options->window,
                    "Against ringing: none, hann, lanczos, fejer or dering; default: the project's")
       ->check(CLI::IsMember(parameterAt("method.window").choices));
+  command
+      ->add_option(
+          "--filter", options->filter,
+          "on or off: biscale shows the mean of the texels that a pixel covers; default: the project's")
+      ->check(CLI::IsMember({"on", "off"}));
   command->add_option("--backend", options->backend, "cpu or gl")
       ->check(CLI::IsMember({"cpu", "gl"}))
       ->capture_default_str();

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace prt::gl {
@@ -13,21 +15,33 @@ namespace prt::gl {
 namespace {
 
 constexpr unsigned kCornerBinding = 1, kPositionBinding = 2, kNormalBinding = 3, kTangentBinding = 4,
-                   kCoordinateBinding = 5;
-constexpr unsigned kLightUnit = 0, kResponseUnit = 1, kIdUnit = 2;
+                   kCoordinateBinding = 5, kRectangleBinding = 6, kChartBinding = 7;
+constexpr unsigned kLightUnit = 0, kResponseUnit = 1, kIdUnit = 2, kCoefficientUnit = 3, kTermUnit = 4,
+                   kOwnerUnit = 5;
+
+Program programWith(const std::string& prelude) {
+  Program program = Program::fromLibrary("biscale.vert", "biscale.frag", prelude);
+  program.set("light", int(kLightUnit));
+  program.set("responses", int(kResponseUnit));
+  program.set("ids", int(kIdUnit));
+  program.set("coefficients", int(kCoefficientUnit));
+  program.set("terms", int(kTermUnit));
+  program.set("owners", int(kOwnerUnit));
+  return program;
+}
 
 }  // namespace
 
 BiscalePass::BiscalePass()
-    : program_(Program::fromLibrary("biscale.vert", "biscale.frag")),
+    : program_(programWith({})),
       array_(VertexArray::create()),
       light_(BufferTexture::create(BufferTexture::Format::Floats)),
-      responses_(BufferTexture::create(BufferTexture::Format::Integers)) {
-  for (Buffer* buffer : {&positions_, &normals_, &tangents_, &corners_, &coordinates_})
+      responses_(BufferTexture::create(BufferTexture::Format::Integers)),
+      coefficients_(BufferTexture::create(BufferTexture::Format::Integers)),
+      terms_(BufferTexture::create(BufferTexture::Format::Integers)) {
+  for (Buffer* buffer :
+       {&positions_, &normals_, &tangents_, &corners_, &coordinates_, &rectangles_, &charts_})
     *buffer = Buffer::create();
-  program_.set("light", int(kLightUnit));
-  program_.set("responses", int(kResponseUnit));
-  program_.set("ids", int(kIdUnit));
   checkErrors("start of the bi-scale pass");
 }
 
@@ -40,13 +54,8 @@ void BiscalePass::setSurface(std::shared_ptr<const BiscaleSurface> surface) {
   if (!before || surface->cover != before->cover) uploadCover(*surface->cover);
   if (!before || surface->responses != before->responses)
     responses_.upload(surface->responses->halfs(), "radiance transfer texture");
-  const ResponseTable& responses = *surface->responses;
-  program_.set("side", responses.texels());
-  program_.set("viewSide", responses.views().side());
-  program_.set("channels", responses.channels());
-  program_.set("groups", int(responses.padded() / 8));
-  program_.set("patchColour", responses.colour());
-  const std::vector<float> black(surface->shading.size() * 3 * responses.padded(), 0.0f);
+  if (surface->filter && (!before || surface->filter != before->filter)) uploadFilter(*surface->filter);
+  const std::vector<float> black(surface->shading.size() * 3 * surface->responses->padded(), 0.0f);
   light_.upload(std::span<const float>(black), "light on the patch");
   checkErrors("upload of the patch");
   surface_ = std::move(surface);
@@ -74,9 +83,22 @@ void BiscalePass::uploadCover(const PatchCover& cover) {
   const std::vector<Vec2> coordinates = cover.cornerCoordinates();
   coordinates_.upload(std::span<const Vec2>(coordinates));
   static constexpr std::array<std::uint16_t, 2> kNone{};
-  ids_ = cover.map() ? Texture::fromPairs(cover.map()->ids, cover.map()->size, cover.map()->size)
-                     : Texture::fromPairs(kNone, 1, 1);
-  program_.set("mapSize", cover.map() ? cover.map()->size : 0);
+  ids_ = cover.map() ? Texture::fromIntegers(cover.map()->ids, 2, cover.map()->size, cover.map()->size)
+                     : Texture::fromIntegers(kNone, 2, 1, 1);
+}
+
+void BiscalePass::uploadFilter(const PatchFilter& filter) {
+  if (!filterProgram_) filterProgram_ = programWith("#define FILTER\n");
+  coefficients_.upload(filter.coefficients(), "filtered patch");
+  terms_.upload(filter.terms().halfs(), "terms of the patch");
+  rectangles_.upload(filter.rectangles());
+  charts_.upload(filter.charts());
+  static constexpr std::array<std::uint16_t, 1> kNone{};
+  owners_ = filter.repeats() ? Texture::fromIntegers(kNone, 1, 1, 1)
+                             : Texture::fromIntegers(filter.owners(), 1, filter.size(), filter.size());
+  filterProgram_.set("termCount", PatchFilter::kTerms);
+  filterProgram_.set("levels", filter.levels());
+  filterProgram_.set("scales", filter.scales());
 }
 
 void BiscalePass::setLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job) {
@@ -90,9 +112,27 @@ void BiscalePass::setLight(const SampleSet& samples, const Transfer& transfer, c
 
 void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
   if (!surface_) return;
-  program_.set("worldToClip", view.worldToClip);
-  program_.set("viewer", view.viewer);
-  program_.set("viewDependent", viewDependent ? 1 : 0);
+  Program& program = this->program();
+  const ResponseTable& responses = *surface_->responses;
+  program.set("side", responses.texels());
+  program.set("viewSide", responses.views().side());
+  program.set("channels", responses.channels());
+  program.set("groups", int(responses.padded() / 8));
+  program.set("patchColour", responses.colour());
+  program.set("mapSize", surface_->cover->map() ? surface_->cover->map()->size : 0);
+  program.set("worldToClip", view.worldToClip);
+  program.set("viewer", view.steps.viewer);
+  program.set("viewDependent", viewDependent ? 1 : 0);
+  if (surface_->filter) {
+    program.set("forward", view.steps.forward);
+    program.set("pixelRight", view.steps.right);
+    program.set("pixelDown", view.steps.down);
+    rectangles_.bindStorage(kRectangleBinding);
+    charts_.bindStorage(kChartBinding);
+    coefficients_.bind(kCoefficientUnit);
+    terms_.bind(kTermUnit);
+    owners_.bind(kOwnerUnit);
+  }
   corners_.bindStorage(kCornerBinding);
   positions_.bindStorage(kPositionBinding);
   normals_.bindStorage(kNormalBinding);
@@ -101,7 +141,7 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
   light_.bind(kLightUnit);
   responses_.bind(kResponseUnit);
   ids_.bind(kIdUnit);
-  program_.use();
+  program.use();
   glBindVertexArray(array_.id());
   glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);
 }

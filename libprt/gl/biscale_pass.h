@@ -4,6 +4,7 @@
 // shader interpolates it over the triangle and meets it with the radiance transfer texture at the texel that
 // the id map names, between the four views around the viewer's direction. The views of a texel lie together
 // in one buffer and are weighed by the shader, so nothing bleeds from one texel's views into another's.
+// A surface with a filter is filtered as there, by the same formulas (shade/patch_filter.h).
 // Every function needs the context that was current when it was made.
 
 #include "libprt/basis/sh.h"
@@ -39,13 +40,18 @@ class BiscalePass {
  private:
   void uploadGeometry(const BiscaleSurface& surface);
   void uploadCover(const PatchCover& cover);
+  void uploadFilter(const PatchFilter& filter);
+  Program& program() { return surface_->filter ? filterProgram_ : program_; }
 
   std::shared_ptr<const BiscaleSurface> surface_;
-  Program program_;
+  Program program_, filterProgram_;  // the second made for the first filter
   VertexArray array_;
   Buffer positions_, normals_, tangents_, corners_, coordinates_;
   BufferTexture light_, responses_;
   Texture ids_;
+  Buffer rectangles_, charts_;  // of the filter, like those that follow
+  BufferTexture coefficients_, terms_;
+  Texture owners_;
   Box3 bounds_;
   int indexCount_ = 0;
 };

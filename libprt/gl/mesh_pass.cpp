@@ -245,7 +245,7 @@ void MeshPass::draw(const SurfaceView& view) {
     texels_.bindStorage(kTexelBinding);
   }
   if (light_ != Light::Irradiance && light_ != Light::TexelIrradiance) {
-    program.set("viewer", view.viewer);
+    program.set("viewer", view.steps.viewer);
     if (!lobes_.empty()) program.set("lobes", std::span<const Vec2>(lobes_));
     radianceBuffer_.bindStorage(kRadianceBinding);
     responses_.bindStorage(kResponseBinding);

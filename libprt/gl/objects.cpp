@@ -162,15 +162,17 @@ Texture Texture::fromImage(const Image& image, Wrap wrap, bool mipmaps) {
   return texture;
 }
 
-Texture Texture::fromPairs(std::span<const std::uint16_t> values, int width, int height) {
+Texture Texture::fromIntegers(std::span<const std::uint16_t> values, int components, int width, int height) {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &id);
   Texture texture(id);
   texture.width_ = width;
   texture.height_ = height;
-  glTextureStorage2D(id, 1, GL_RG16UI, width, height);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(id, 0, 0, 0, width, height, GL_RG_INTEGER, GL_UNSIGNED_SHORT, values.data());
+  const bool pairs = components == 2;
+  glTextureStorage2D(id, 1, pairs ? GL_RG16UI : GL_R16UI, width, height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
+  glTextureSubImage2D(id, 0, 0, 0, width, height, pairs ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_SHORT,
+                      values.data());
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;

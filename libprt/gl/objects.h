@@ -91,8 +91,9 @@ class Texture : public detail::Handle<detail::deleteTexture> {
   static Texture create2d(int width, int height, PixelFormat format, int samples = 1);
   /// A float image as RGBA32F with linear filtering; `mipmaps` adds the whole chain.
   static Texture fromImage(const Image& image, Wrap wrap, bool mipmaps);
-  /// Two 16-bit unsigned integers a texel, [height][width][2], as they are; the first row is row 0.
-  static Texture fromPairs(std::span<const std::uint16_t> values, int width, int height);
+  /// One or two 16-bit unsigned integers a texel, [height][width][components], as they are; the first row is
+  /// row 0.
+  static Texture fromIntegers(std::span<const std::uint16_t> values, int components, int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }

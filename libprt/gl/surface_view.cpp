@@ -20,7 +20,7 @@ SurfaceView surfaceView(const Camera& camera, const Box3& bounds, int width, int
   Mat4 move(1);
   move[3] = Vec4(-2.0f * shift / Vec2(width, height), 0, 1);
   return {move * camera.projection(float(width) / float(height), depth.x, depth.y) * camera.view(),
-          camera.orthographic ? Vec4(camera.axes().normal, 0) : Vec4(camera.eye, 1)};
+          PixelSteps(camera, width, height)};
 }
 
 int supportedSamples(int wanted) {

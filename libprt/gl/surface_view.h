@@ -3,6 +3,7 @@
 
 #include "libprt/core/math.h"
 #include "libprt/shade/camera.h"
+#include "libprt/shade/footprint.h"
 
 namespace prt::gl {
 
@@ -11,7 +12,7 @@ Vec2 depthRange(const Camera& camera, const Box3& box);
 
 struct SurfaceView {
   Mat4 worldToClip{1};
-  Vec4 viewer{0, 0, 1, 0};  ///< where, w = 1; or in which direction, w = 0
+  PixelSteps steps;
 };
 
 /// `shift`: where in its pixels the picture is taken, from the centre, in pixels right and up.

@@ -32,6 +32,11 @@ std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe) {
 }
 
 std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe) {
+  Job job;
+  return laidPatch(products, recipe, job);
+}
+
+std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe, Job& job) {
   if (recipe.patch.model == PatchModel::None) return nullptr;
   const auto scene = products.get<SceneProduct>("scene");
   const auto frames = products.get<FramesProduct>("frames");
@@ -39,9 +44,11 @@ std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const 
   if (!scene || !frames || !rtt || !rtt->rtt) return nullptr;
   const auto cover = coverOf(products, recipe, scene->scene);
   if (!cover) return nullptr;
-  return std::make_shared<const BiscaleSurface>(scene->scene,
-                                                std::shared_ptr<const TangentFrames>(frames, &frames->frames),
-                                                cover, std::make_shared<ResponseTable>(*rtt->rtt));
+  auto surface = std::make_shared<BiscaleSurface>(
+      scene->scene, std::shared_ptr<const TangentFrames>(frames, &frames->frames), cover,
+      std::make_shared<ResponseTable>(*rtt->rtt));
+  if (recipe.method.filter) surface->filter = std::make_shared<PatchFilter>(cover, *rtt->rtt, job);
+  return surface;
 }
 
 bool showsPatch(const Recipe& recipe) {

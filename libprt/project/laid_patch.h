@@ -14,6 +14,8 @@ namespace prt {
 std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe);
 
 /// Null when the recipe lays no patch, or a product is missing or only a preview of a coarser mesh.
+/// With method.filter its filter is made, which takes part of a second; Cancelled.
+std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe, Job& job);
 std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe);
 
 /// Whether pictures of this recipe show the patch on the surface once it is laid: method.name is biscale.

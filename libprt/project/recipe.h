@@ -186,6 +186,7 @@ struct IdMapRecipe {
 struct MethodRecipe {
   std::string name = "auto";
   bool viewDependent = true;  ///< of the patch
+  bool filter = false;        ///< of the patch (shade/patch_filter.h)
   std::string window = "none";
   bool operator==(const MethodRecipe&) const = default;
 };

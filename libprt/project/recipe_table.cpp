@@ -1020,6 +1020,17 @@ const std::vector<Row<MethodRecipe>> kMethod{
      {},
      kCostLight,
      "biscale: off, the patch looks from everywhere as it does from above, and hides nothing of itself."},
+    {"filter",
+     [](MethodRecipe& m) -> FieldRef { return &m.filter; },
+     ParameterType::Boolean,
+     "",
+     0,
+     0,
+     {},
+     kCostLight,
+     "biscale: on, pixels show the mean of the patch's texels that they cover, and blend them where texels "
+     "are "
+     "larger; off, the one texel in their middle, as the paper has it."},
     {"window", [](MethodRecipe& m) -> FieldRef { return namedChoice(m.window, kWindows); },
      ParameterType::Choice, "", 0, 0, kWindows, kCostLight,
      "Damps the light's upper bands against ringing; dering damps as little as leaves no negative light."},

@@ -2,18 +2,14 @@
 
 #include "libprt/basis/sh_kernel.h"
 #include "libprt/core/error.h"
-#include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
 #include "libprt/shade/background.h"
+#include "libprt/shade/half_lanes.h"
 #include "libprt/shade/sound.h"
 #include "libprt/shade/surface_light.h"
 
 #include <algorithm>
 #include <array>
-
-#ifdef __F16C__
-#include <immintrin.h>
-#endif
 
 namespace prt {
 namespace {
@@ -24,16 +20,6 @@ using sh_kernel::load;
 using sh_kernel::sum;
 
 constexpr std::size_t kMaxFunctions = 100;
-
-Lanes loadHalfs(const std::uint16_t* from) {
-#ifdef __F16C__
-  return Lanes(_mm256_cvtph_ps(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
-#else
-  Lanes v;
-  for (int i = 0; i < kLanes; ++i) v[i] = fromHalf(from[i]);
-  return v;
-#endif
-}
 
 /// Turns of eight frames side by side.
 ShTurns<Lanes> turnsOf(const ShadingFrames& shading, std::span<const std::uint32_t> frames) {
@@ -106,26 +92,41 @@ BiscaleLight::BiscaleLight(const BiscaleSurface& surface, std::span<const std::u
   });
 }
 
-Rgb shadeBiscale(const BiscaleFragment& f, const BiscaleLight& light, const ResponseTable& responses) {
+namespace {
+
+/// Light at a fragment met with the response that of(k) gives for functions k ..: of each channel, or of all
+/// three alike.
+template <class Response>
+Rgb shadeWith(const BiscaleFragment& f, const BiscaleLight& light, const ResponseTable& responses,
+              const Response& of) {
   const std::size_t padded = responses.padded();
   const bool coloured = responses.channels() == 3;
-  const std::uint16_t* b[4];
-  for (std::size_t i = 0; i < 4; ++i) b[i] = responses.block(f.texel, f.view[i]);
   const float* x[3];
   for (std::size_t i = 0; i < 3; ++i) x[i] = light.radiance(f.corner[i]);
   Lanes dots[3]{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t of = coloured ? c * padded : 0;
+  for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t k = 0; k < padded; k += kLanes) {
-      const Lanes response =
-          f.viewWeight.x * loadHalfs(b[0] + of + k) + f.viewWeight.y * loadHalfs(b[1] + of + k) +
-          f.viewWeight.z * loadHalfs(b[2] + of + k) + f.viewWeight.w * loadHalfs(b[3] + of + k);
       const std::size_t at = c * padded + k;
-      dots[c] += response *
+      dots[c] += of(coloured ? at : k) *
                  (f.weight.x * load(x[0] + at) + f.weight.y * load(x[1] + at) + f.weight.z * load(x[2] + at));
     }
-  }
   return sound(responses.colour() * Rgb(sum(dots[0]), sum(dots[1]), sum(dots[2])));
+}
+
+}  // namespace
+
+Rgb shadeBiscale(const BiscaleTile& tile, const BiscaleFragment& f, const BiscaleLight& light,
+                 const ResponseTable& responses) {
+  if (f.filtered) {
+    const std::uint16_t* made = tile.responses.data() + std::size_t(f.texel) * responses.blockSize();
+    return shadeWith(f, light, responses, [made](std::size_t k) { return loadHalfs(made + k); });
+  }
+  const std::uint16_t* b[4];
+  for (std::size_t i = 0; i < 4; ++i) b[i] = responses.block(f.texel, f.view[i]);
+  return shadeWith(f, light, responses, [&](std::size_t k) {
+    return f.viewWeight.x * loadHalfs(b[0] + k) + f.viewWeight.y * loadHalfs(b[1] + k) +
+           f.viewWeight.z * loadHalfs(b[2] + k) + f.viewWeight.w * loadHalfs(b[3] + k);
+  });
 }
 
 Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, int height, int grid,
@@ -141,7 +142,7 @@ Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, 
     for (std::size_t p = 0; p < tile.open.size(); ++p)
       image.pixel(tile.x + int(p) % tile.width, tile.y + int(p) / tile.width)[3] = 1 - tile.open[p];
     for (const BiscaleFragment& f : tile.fragments) {
-      const Rgb c = f.share * shadeBiscale(f, light, *input.surface.responses);
+      const Rgb c = f.share * shadeBiscale(tile, f, light, *input.surface.responses);
       float* to = image.pixel(tile.x + int(f.pixel) % tile.width, tile.y + int(f.pixel) / tile.width);
       to[0] += c.x, to[1] += c.y, to[2] += c.z;
     }

@@ -39,8 +39,9 @@ class BiscaleLight {
   std::vector<float> records_;
 };
 
-/// Linear radiance of a fragment.
-Rgb shadeBiscale(const BiscaleFragment& fragment, const BiscaleLight& light, const ResponseTable& responses);
+/// Linear radiance of a fragment of a tile.
+Rgb shadeBiscale(const BiscaleTile& tile, const BiscaleFragment& fragment, const BiscaleLight& light,
+                 const ResponseTable& responses);
 
 struct BiscaleInput {
   const BiscaleSurface& surface;

@@ -1,21 +1,96 @@
 #include "libprt/shade/biscale_view.h"
 
+#include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
+#include "libprt/shade/half_lanes.h"
 #include "libprt/synthesis/orientation_field.h"
 #include "libprt/synthesis/surface_point.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <span>
 
 namespace prt {
 namespace {
 
+using sh_kernel::Lanes;
+constexpr std::size_t kLanes = std::size_t(sh_kernel::kLanes);
+
+/// A fragment's response, summed up.
+class ResponseSum {
+ public:
+  ResponseSum(const ResponseTable& table, const BiscaleFragment& fragment)
+      : table_(table), fragment_(fragment), lanes_(table.blockSize() / kLanes) {
+    std::fill_n(sums_.begin(), lanes_, Lanes{});
+  }
+
+  /// Of a texel of `table`, between the views around the fragment's.
+  void add(const ResponseTable& table, std::uint32_t texel, float weight) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const float share = weight * fragment_.viewWeight[int(i)];
+      const std::uint16_t* block = table.block(texel, fragment_.view[i]);
+      for (std::size_t n = 0; n < lanes_; ++n) sums_[n] += share * loadHalfs(block + n * kLanes);
+    }
+  }
+  void add(const PatchFilter::Coefficients& coefficients, const ResponseTable& terms) {
+    for (std::size_t t = 0; t < coefficients.size(); ++t) add(terms, std::uint32_t(t), coefficients[t]);
+  }
+  /// Appends it as halfs.
+  void store(std::vector<std::uint16_t>& to) const {
+    std::array<float, kLanes> values;
+    const std::size_t first = to.size();
+    to.resize(first + lanes_ * kLanes);
+    for (std::size_t n = 0; n < lanes_; ++n) {
+      sh_kernel::store(sums_[n], values.data());
+      for (float& v : values) v = std::clamp(v, -kLargestHalf, kLargestHalf);
+      toHalf(values, std::span(to).subspan(first + n * kLanes, kLanes));
+    }
+  }
+  const ResponseTable& table() const { return table_; }
+
+ private:
+  const ResponseTable& table_;
+  const BiscaleFragment& fragment_;
+  std::size_t lanes_;
+  std::array<Lanes, 3 * 104 / kLanes> sums_;  // ten bands in three channels
+};
+
+/// All samples of a footprint: exact texels below level 1, coefficients from there on. False where neither
+/// knows anything.
+bool addFiltered(const PatchFilter& filter, const FilterPlace& middle, const Footprint& print,
+                 ResponseSum& sum) {
+  const float level = filter.holds(middle.chart) ? filter.levelOf(print.width) : 0.0f,
+              part = 1 / float(print.taps);
+  const FilterTexels here = filter.texelsAround(middle);
+  const float coarse = here.empty() && level > 0 ? 1.0f : std::min(level, 1.0f);
+  if (coarse == 0 && here.empty()) return false;
+  PatchFilter::Coefficients coefficients{};
+  for (int i = 0; i < print.taps; ++i) {
+    FilterPlace place = middle;
+    place.at += (float(i) - 0.5f * float(print.taps - 1)) * print.step;
+    if (coarse < 1) {
+      FilterTexels around = filter.texelsAround(place);
+      if (around.empty()) around = here;  // beyond the chart
+      for (int k = 0; k < 4; ++k)
+        if (const float weight = around.weight[k] * part * (1 - coarse); weight > 0)
+          sum.add(sum.table(), around.texel[std::size_t(k)], weight);
+    }
+    if (coarse > 0) filter.add(place, level, part * coarse, coefficients);
+  }
+  if (coarse > 0) sum.add(coefficients, filter.terms());
+  return true;
+}
+
 class Maker {
  public:
-  Maker(const BiscaleSurface& surface, const Camera& camera, const BiscaleViewOptions& options)
+  Maker(const BiscaleSurface& surface, const Camera& camera, int width, int height,
+        const BiscaleViewOptions& options)
       : surface_(surface),
         mesh_(surface.scene->mesh),
         camera_(camera),
         options_(options),
+        steps_(camera, width, height),
         used_(surface.shading.size(), 0) {}
 
   void fill(const FragmentTile& seen, BiscaleTile& tile) {
@@ -41,22 +116,45 @@ class Maker {
  private:
   void add(const Fragment& f, std::uint32_t pixel, float share, BiscaleTile& tile) {
     if (f.back) return;
-    const Vec2 patch = surface_.cover->at(f.triangle, f.barycentric);
-    if (patch.x < 0) return;
     BiscaleFragment out;
     out.pixel = pixel, out.share = share;
     out.weight = {1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y};
-    out.texel = surface_.responses->texelAt(patch);
-    for (std::size_t i = 0; i < 3; ++i) {
-      out.corner[i] = surface_.shading.corner[3 * std::size_t(f.triangle) + i];
-      std::atomic_ref(used_[out.corner[i]]).store(1, std::memory_order_relaxed);
-    }
     const auto views = surface_.responses->views().bilinear(localView(f));
     for (std::size_t i = 0; i < 4; ++i) {
       out.view[i] = std::uint16_t(views[i].index);
       out.viewWeight[int(i)] = views[i].weight;
     }
+    if (!(surface_.filter && filter(f, out, tile)) && !look(f, out)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      out.corner[i] = surface_.shading.corner[3 * std::size_t(f.triangle) + i];
+      std::atomic_ref(used_[out.corner[i]]).store(1, std::memory_order_relaxed);
+    }
     tile.fragments.push_back(out);
+  }
+
+  /// The texel that is shown; false where there is none.
+  bool look(const Fragment& f, BiscaleFragment& out) const {
+    const Vec2 patch = surface_.cover->at(f.triangle, f.barycentric);
+    if (patch.x < 0) return false;
+    out.texel = surface_.responses->texelAt(patch);
+    return true;
+  }
+
+  /// The response of all that the pixel covers; false where nothing can be told.
+  bool filter(const Fragment& f, BiscaleFragment& out, BiscaleTile& tile) const {
+    const PatchFilter& filter = *surface_.filter;
+    const UVec3& t = mesh_.triangles[f.triangle];
+    const Vec3& a = mesh_.positions[t.x];
+    const Vec3 e1 = mesh_.positions[t.y] - a, e2 = mesh_.positions[t.z] - a;
+    const PlaneSteps steps = planeSteps(steps_, a + f.barycentric.x * e1 + f.barycentric.y * e2, e1, e2);
+    const Footprint print = footprintOf(filter.placeStep(f.triangle, weightStep(steps.right, e1, e2)),
+                                        filter.placeStep(f.triangle, weightStep(steps.down, e1, e2)));
+    ResponseSum sum(*surface_.responses, out);
+    if (!addFiltered(filter, filter.place(f.triangle, f.barycentric), print, sum)) return false;
+    out.filtered = true;
+    out.texel = std::uint32_t(tile.responses.size() / surface_.responses->blockSize());
+    sum.store(tile.responses);
+    return true;
   }
 
   /// Towards the viewer, in the patch's frame there.
@@ -77,6 +175,7 @@ class Maker {
   const TriMesh& mesh_;
   const Camera& camera_;
   BiscaleViewOptions options_;
+  PixelSteps steps_;
   std::vector<std::uint8_t> used_;  // [R]
 };
 
@@ -95,7 +194,7 @@ BiscaleSurface::BiscaleSurface(std::shared_ptr<const Scene> sceneOf,
 BiscaleView makeBiscaleView(const BiscaleSurface& surface, const Camera& camera, int width, int height,
                             const BiscaleViewOptions& options, Job& job) {
   const Rasterizer rasterizer(surface.scene->mesh, camera, width, height, options.grid, job);
-  Maker maker(surface, camera, options);
+  Maker maker(surface, camera, width, height, options);
   BiscaleView view;
   view.width = width, view.height = height;
   view.tiles.resize(rasterizer.tileCount());

@@ -7,6 +7,7 @@
 #include "libprt/shade/camera.h"
 #include "libprt/shade/live_pixels.h"
 #include "libprt/shade/patch_cover.h"
+#include "libprt/shade/patch_filter.h"
 #include "libprt/shade/response_table.h"
 #include "libprt/shade/shading_frames.h"
 #include "libprt/transport/scene.h"
@@ -25,6 +26,8 @@ struct BiscaleSurface {
   std::shared_ptr<const PatchCover> cover;
   std::shared_ptr<const ResponseTable> responses;
   ShadingFrames shading;
+  /// Not null: pictures are filtered in space, see patch_filter.h. Of this cover and these responses.
+  std::shared_ptr<const PatchFilter> filter = {};
 
   BiscaleSurface(std::shared_ptr<const Scene> scene, std::shared_ptr<const TangentFrames> frames,
                  std::shared_ptr<const PatchCover> cover, std::shared_ptr<const ResponseTable> responses);
@@ -36,13 +39,15 @@ struct BiscaleFragment {
   float share = 0;                        ///< of the pixel
   std::array<std::uint32_t, 3> corner{};  ///< in BiscaleView::frames
   Vec3 weight{0};                         ///< and their weights
-  std::uint32_t texel = 0;                ///< of the patch
+  std::uint32_t texel = 0;                ///< of the patch; filtered: place in BiscaleTile::responses
+  bool filtered = false;                  ///< its response is one of the tile's, views interpolated
   std::array<std::uint16_t, 4> view{};    ///< cells of the view square
   Vec4 viewWeight{0};                     ///< add up to 1
 };
 
 struct BiscaleTile : PixelTile {
   std::vector<BiscaleFragment> fragments;  ///< by pixel, row by row
+  std::vector<std::uint16_t> responses;    ///< of filtered fragments: halfs [channels][padded] each
 };
 
 struct BiscaleView {

@@ -24,7 +24,7 @@ void addFragments(const LiveTile& tile, int around, const LiveLight& light, cons
 void addFragments(const BiscaleTile& tile, const BiscaleLight& light, const ResponseTable& responses,
                   const DisplayTable& display, LiveSums& sums) {
   for (const BiscaleFragment& f : tile.fragments)
-    sums.add(f.pixel, f.share, shadeBiscale(f, light, responses), display);
+    sums.add(f.pixel, f.share, shadeBiscale(tile, f, light, responses), display);
 }
 
 /// A view of nothing but background.

@@ -22,8 +22,9 @@ class PatchCover {
   /// Patch coordinates in [0, 1), nearest texel of the id map; negative where it is empty.
   Vec2 at(std::uint32_t triangle, const Vec2& barycentric) const;
 
-  /// Null where the mesh's own coordinates lay the patch.
+  /// Both null where the mesh's own coordinates lay the patch.
   const IdMap* map() const { return map_.get(); }
+  const Atlas* atlas() const { return atlas_.get(); }
   /// [3F] where the triangles' corners lie: in the atlas, or, without a map, in repeated patches.
   std::vector<Vec2> cornerCoordinates() const;
 

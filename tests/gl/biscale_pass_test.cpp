@@ -10,7 +10,7 @@
 #include "libprt/shade/live_renderer.h"
 #include "tests/gl/gl_test_support.h"
 #include "tests/support/off_edges.h"
-#include "tests/support/patched_world.h"
+#include "tests/support/patch_covers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +41,7 @@ struct Case {
   ShRgb light;
   Camera camera;
   bool viewDependent = true;
+  int width = kWidth, height = kHeight;
 };
 
 Case caseOf(const char* what, const PatchedWorld& world, Transfer transfer) {
@@ -55,7 +56,7 @@ Image glPicture(const Case& c, const ToneSettings& tone) {
   renderer.setScene(*c.surface->scene);
   renderer.setPatch(c.surface);
   renderer.setPatchLight(c.samples, c.transfer, c.light, job);
-  Picture picture{.camera = c.camera, .width = kWidth, .height = kHeight, .samples = 1};
+  Picture picture{.camera = c.camera, .width = c.width, .height = c.height, .samples = 1};
   picture.viewDependent = c.viewDependent;
   picture.tone = tone;
   return renderer.renderToned(picture);
@@ -66,16 +67,16 @@ void expectAgreement(const Case& c) {
   Job job;
   const Image cpu =
       toDisplay(renderBiscale({*c.surface, c.samples, c.transfer, c.light, nullptr, c.viewDependent},
-                              c.camera, kWidth, kHeight, 1, job),
+                              c.camera, c.width, c.height, 1, job),
                 tone);
   const Image gl = glPicture(c, tone);
   const Scene& scene = *c.surface->scene;
-  const std::vector<bool> off = test::offEdges(scene.mesh, scene.triangleObject, c.camera, kWidth, kHeight);
+  const std::vector<bool> off = test::offEdges(scene.mesh, scene.triangleObject, c.camera, c.width, c.height);
   int compared = 0, seen = 0, agreeing = 0;
   float worst = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      if (!off[std::size_t(y * kWidth + x)] || cpu.pixel(x, y)[3] == 0) continue;
+  for (int y = 0; y < c.height; ++y)
+    for (int x = 0; x < c.width; ++x) {
+      if (!off[std::size_t(y * c.width + x)] || cpu.pixel(x, y)[3] == 0) continue;
       const Rgb a = gl.rgb(x, y), b = cpu.rgb(x, y), d = abs(a - b);
       const float difference = std::max({d.x, d.y, d.z});
       ++compared;
@@ -83,7 +84,7 @@ void expectAgreement(const Case& c) {
       agreeing += difference <= 1.0f / 255;
       worst = std::max(worst, difference);
     }
-  EXPECT_GT(compared, kWidth * kHeight / 8) << c.what;
+  EXPECT_GT(compared, c.width * c.height / 8) << c.what;
   EXPECT_GT(seen, compared * 9 / 10) << c.what << ": not black";
   EXPECT_GE(double(agreeing) / compared, kAgreeing)
       << c.what << ": worst difference " << worst * 255 << " / 255";
@@ -131,6 +132,31 @@ Scene rockOnGround() {
 TEST_F(BiscalePassTest, OnAGroundAndInOneView) {
   const PatchedWorld ground(rockOnGround(), variedRtt(5, 1, 1));
   expectAgreement(caseOf("rock on a ground", ground, matrices(ground.samples.size(), 1)));
+}
+
+TEST_F(BiscalePassTest, FilteredInSpace) {
+  const Rtt rtt = test::contrastedRtt();
+  PatchedWorld rock(test::sceneOf(test::rock(20)), rtt);
+  rock.cover = test::coverBy(*rock.scene, 256, test::byPlace);
+  PatchedWorld vase(test::sceneOf(makeVase({.segments = 24, .rings = 32})), test::variedRtt(6, 2, 3));
+  const std::shared_ptr<const TriMesh> mesh(vase.scene, &vase.scene->mesh);
+  vase.cover = std::make_shared<PatchCover>(mesh, squareRepeat(*mesh, 12));
+  for (const PatchedWorld* world : {&rock, &vase}) {
+    Case c = caseOf(world == &rock ? "filtered by an id map" : "filtered by coordinates", *world,
+                    matrices(world->samples.size(), 1));
+    auto surface = std::make_shared<BiscaleSurface>(*c.surface);
+    Job job;
+    surface->filter = std::make_shared<PatchFilter>(surface->cover, world->rtt, job);
+    c.surface = surface;
+    c.width = 80, c.height = 60;
+    if (world == &vase) c.camera.target = {0, 0.35f, 0}, c.camera.eye = {0.5f, 0.9f, 1.4f};
+    expectAgreement(c);
+    if (world == &vase) continue;
+    c.camera.eye = {0.3f, 0.3f, 1.6f};  // magnified here, minified towards the outline
+    c.camera.orthographic = true;
+    c.what = "filtered, near, parallel rays";
+    expectAgreement(c);
+  }
 }
 
 // What the studio's two canvases show: background and ground grid included, over and over.

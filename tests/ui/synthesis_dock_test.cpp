@@ -87,6 +87,25 @@ TEST_F(SynthesisDockTest, TheLightTurnsOverThePatchWithoutABake) {
   EXPECT_TRUE(session.bakes().fresh());
 }
 
+TEST_F(SynthesisDockTest, TheFilterChangesThePictureWithoutABake) {
+  Recipe recipe = smallPatch();
+  recipe.method.name = "biscale";
+  recipe.synthesis.scale = 0.05f;  // texels far smaller than pixels
+  openAndSettle(recipe);
+  ASSERT_TRUE(row("method.filter")->isVisible());
+  const QImage sharp = picture();
+  session.document().set(s("method.filter"), s("true"));
+  ASSERT_TRUE(waitFor([&] {
+    const auto patch = session.relighter().shownPatch();
+    return patch && patch->filter;
+  }));
+  EXPECT_TRUE(session.bakes().fresh());
+  EXPECT_GT(difference(sharp, picture()), 0.005);
+  session.document().undo();
+  ASSERT_TRUE(waitFor([&] { return !session.relighter().shownPatch()->filter; }));
+  EXPECT_LT(difference(sharp, picture()), 0.002);
+}
+
 TEST_F(SynthesisDockTest, RowsAreThoseOfTheWayOfLaying) {
   openAndSettle(smallPatch());
   session.bakes().setAutomatic(false);

@@ -71,6 +71,8 @@ Section* SynthesisDock::makeShown() {
   section->add(shown_);
   views_ = new PropertyRow(session_.document(), QStringLiteral("method.viewDependent"), tr("Views"));
   section->add(views_);
+  filter_ = new PropertyRow(session_.document(), QStringLiteral("method.filter"), tr("Filter"));
+  section->add(filter_);
   return section;
 }
 
@@ -231,6 +233,7 @@ void SynthesisDock::refresh() {
   shown_->setEnabled(patch);
   shown_->setChecked(shown);
   views_->setVisible(shown);
+  filter_->setVisible(shown);
   for (PropertyRow* row : grownRows_)
     row->setVisible(grown && (row->path() != u"field.width" || !recipe.field.strokes.empty()));
   for (PropertyRow* row : laidRows_) row->setVisible(!grown);

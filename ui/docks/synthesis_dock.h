@@ -42,7 +42,7 @@ class SynthesisDock : public DockColumn {
   Session& session_;
   SynthesisLook look_;
   QCheckBox* shown_;
-  PropertyRow* views_ = nullptr;
+  PropertyRow *views_ = nullptr, *filter_ = nullptr;
   Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr, *parts_ = nullptr;
   std::vector<PropertyRow*> grownRows_, laidRows_;
   QLabel* map_;

@@ -18,13 +18,15 @@ class SurfacePatch : public QObject {
 
  private:
   void take(const QString& stage, const ProductState& state);
+  void followFilter();
   void makeAnew();
 
   Document& document_;
   BakeController& bakes_;
   Relighter& relighter_;
   JobRunner& jobs_;
-  quint64 made_ = 0;  // number of the newest: results of older ones are dropped
+  bool filter_ = false;  // of the newest
+  quint64 made_ = 0;     // number of the newest: results of older ones are dropped
 };
 
 }  // namespace prt::ui
