@@ -10,7 +10,7 @@ namespace prt::cli {
 namespace {
 
 struct Options {
-  std::string name, folder;
+  std::string name, folder, mesh;
 };
 
 std::string listOfFigures() {
@@ -29,7 +29,7 @@ void make(Session& session, const Options& options) {
     throw UsageError("there is no figure '" + options.name + "'", "NAME",
                      (nearest.empty() ? "" : "did you mean " + nearest + "? ") + ("choose from " + list));
   }
-  const nlohmann::json result = makeFigure(options.name, options.folder, session.job());
+  const nlohmann::json result = makeFigure(options.name, {options.folder, options.mesh}, session.job());
   session.say("open " + result.value("page", options.folder));
   session.result(result);
 }
@@ -41,6 +41,8 @@ void addFigures(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("figures", "Make figures of the papers anew: pictures and a page");
   command->add_option("NAME", options->name, "Which figure, of those below")->required();
   command->add_option("-o,--output", options->folder, "Folder to write to")->required();
+  command->add_option("--mesh", options->mesh,
+                      "A mesh file or builtin:NAME in place of the figures' own models");
   command->footer(listOfFigures);
   command->callback([options, &action] { action = [options](Session& s) { make(s, *options); }; });
 }

@@ -42,6 +42,11 @@ const std::vector<Entry>& entries() {
       {{"biscale", "512x512 frames of a woven rock, light and view changing: rate against the paper's 14.5"},
        benchBiscale,
        60},
+      {{"equal",
+        "path tracing of a rock's displaced stucco to the error of its bi-scale picture: how many frames it "
+        "takes"},
+       benchEqual,
+       32},
       {{"studio", "frames of the studio's window under the hand: light drag, slider, gaps while it bakes"},
        benchStudio,
        90},

@@ -31,10 +31,14 @@ BenchResult benchSynthesis(Job& job, int repetitions);
 BenchResult benchPipeline(Job& job, int repetitions);
 /// Frames of both scales together, light and view changing, against the paper's; `repetitions` of them.
 BenchResult benchBiscale(Job& job, int repetitions);
+/// What path tracing takes for a picture as exact as the bi-scale one; `repetitions` paths per pixel.
+BenchResult benchEqual(Job& job, int repetitions);
 /// Adds to its details what cutting a chart of 10 000 triangles and dragging a corner of it take.
 void benchChartEdit(BenchResult& result, Job& job);
 
+struct Recipe;
 struct Scene;
+class Products;
 class RayScene;
 struct SampleSet;
 
@@ -45,6 +49,16 @@ struct BenchScene {
   std::shared_ptr<const SampleSet> samples;
 };
 BenchScene benchScene();
+
+/// What the bench "biscale" bakes.
+Recipe biscaleBenchRecipe();
+
+/// Medians over frames of 512 x 512, light and view changing in each, and how much of them is covered.
+struct BiscaleFrame {
+  double whole = 0, light = 0, raster = 0, transfer = 0;  ///< seconds
+  double vertices = 0, framesSeen = 0, covered = 0;
+};
+BiscaleFrame biscaleFrame(const Recipe& recipe, const Products& products, int frames, Job& job);
 
 /// A job for work inside a bench: reports to nobody, ends when the bench's own job is cancelled.
 struct InnerJob {

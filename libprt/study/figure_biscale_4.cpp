@@ -1,19 +1,16 @@
 // Figure 4 of Bi-Scale Radiance Transfer: the weave's RTT on a square, two views times five lights.
 
-#include "libprt/core/file.h"
-#include "libprt/core/image_io.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/meso/patch_build.h"
 #include "libprt/meso/rtt_bake.h"
 #include "libprt/shade/patch_square.h"
-#include "libprt/shade/tonemap.h"
+#include "libprt/study/figure_kit.h"
 #include "libprt/study/figure_list.h"
 #include "libprt/study/figure_page.h"
 
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 
 namespace prt {
@@ -56,7 +53,7 @@ ShRgb lightOf(const Lighting& lighting) {
   return projectLights(rig, 5);
 }
 
-std::string pageOf(double seconds, const Rtt& rtt) {
+FigurePage pageOf(double seconds, const Rtt& rtt) {
   char text[256];
   std::snprintf(
       text, sizeof text,
@@ -67,23 +64,24 @@ std::string pageOf(double seconds, const Rtt& rtt) {
   for (const Viewpoint& view : kViews) {
     rows.emplace_back();
     for (const Lighting& light : kLights)
-      rows.back().push_back(
-          {std::string(view.name) + "_" + light.name + ".png", std::string(light.text) + ", " + view.text});
+      rows.back().push_back({std::string(view.name) + "_" + light.name + ".png",
+                             std::string(light.text) + ", " + view.text,
+                             {}});
   }
-  return figurePage("The weave's radiance transfer texture on a square", text, rows);
+  return {"The weave's radiance transfer texture on a square", text, rows, {}};
 }
 
 }  // namespace
 
-nlohmann::json makeBiscale4(const std::filesystem::path& folder, Job& job) {
+nlohmann::json makeBiscale4(const FigureRequest& request, Job& job) {
   PatchOptions options;
   options.model = PatchModel::Weave;
   options.albedo = Rgb(0.62f, 0.44f, 0.26f);
   options.warp = Rgb(0.75f, 0.8f, 0.9f);
-  const auto begun = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const PatchScene patch = makePatchScene(std::make_shared<Patch>(buildPatch(options, {}, job)), job);
   const Rtt rtt = bakeRtt(patch, {}, job);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  const double seconds = watch.seconds();
   nlohmann::json pictures = nlohmann::json::array();
   SquareOptions square;
   square.repeats = 2;
@@ -93,16 +91,13 @@ nlohmann::json makeBiscale4(const std::filesystem::path& folder, Job& job) {
       Camera camera;
       camera.eye = 1.25f * view.eye;
       Image image = renderPatchSquare(rtt, lightOf(light), camera, square, job);
-      ImageWriteOptions encoded;
-      encoded.alreadySrgb = true;
       const std::string name = std::string(view.name) + "_" + light.name + ".png";
-      writeImage(folder / name, toDisplay(image, {0, ToneCurve::Linear}), encoded);
+      writeFigurePicture(request.folder / name, image);
       pictures.push_back({{"file", name}, {"view", view.text}, {"light", light.text}});
       job.advance(1);
     }
-  writeFile(folder / "index.html", pageOf(seconds, rtt));
   return {{"figure", "biscale-4"},
-          {"page", (folder / "index.html").string()},
+          {"page", writePage(request.folder, pageOf(seconds, rtt))},
           {"bake_seconds", seconds},
           {"images_of_the_paper", 8192},
           {"pictures", pictures}};

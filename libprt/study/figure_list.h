@@ -2,15 +2,16 @@
 // The figures that makeFigure() knows. Internal to study: to add one, declare it here and list it in
 // figures.cpp.
 
-#include "libprt/core/job.h"
-
-#include <nlohmann/json_fwd.hpp>
-
-#include <filesystem>
+#include "libprt/study/figures.h"
 
 namespace prt {
 
-nlohmann::json makeBiscale4(const std::filesystem::path& folder, Job& job);
-nlohmann::json makeBiscale6(const std::filesystem::path& folder, Job& job);
+nlohmann::json makeBiscaleAll(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscale1(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscale3(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscale4(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscale5(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscale6(const FigureRequest& request, Job& job);
+nlohmann::json makeBiscaleTruth(const FigureRequest& request, Job& job);
 
 }  // namespace prt

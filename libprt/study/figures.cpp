@@ -10,16 +10,22 @@ namespace {
 
 struct Entry {
   FigureInfo info;
-  nlohmann::json (*make)(const std::filesystem::path&, Job&);
+  nlohmann::json (*make)(const FigureRequest&, Job&);
 };
 
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all{
+      {{"biscale", "all of the following and the paper's numbers, on one page; takes minutes"},
+       makeBiscaleAll},
+      {{"biscale-1", "a model without and with either scale"}, makeBiscale1},
+      {{"biscale-3", "a rock with three kinds of macro transport"}, makeBiscale3},
       {{"biscale-4", "the weave's radiance transfer texture on a square: two views, five lights"},
        makeBiscale4},
+      {{"biscale-5", "radiance transfer textures on a model"}, makeBiscale5},
       {{"biscale-6",
         "a woven bird without and with the macro scale and views, and its id map (figures 2 and 6)"},
-       makeBiscale6}};
+       makeBiscale6},
+      {{"biscale-truth", "stucco on a rock against the displaced surface, path traced"}, makeBiscaleTruth}};
   return all;
 }
 
@@ -34,7 +40,7 @@ const std::vector<FigureInfo>& figures() {
   return infos;
 }
 
-nlohmann::json makeFigure(const std::string& name, const std::filesystem::path& folder, Job& job) {
+nlohmann::json makeFigure(const std::string& name, const FigureRequest& request, Job& job) {
   std::string names;
   for (const Entry& entry : entries()) {
     if (entry.info.name != name) {
@@ -42,10 +48,11 @@ nlohmann::json makeFigure(const std::string& name, const std::filesystem::path& 
       continue;
     }
     std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!std::filesystem::is_directory(folder, error))
-      throw FileError("is not a folder and cannot be made one", folder.string(), "choose another name");
-    return entry.make(folder, job);
+    std::filesystem::create_directories(request.folder, error);
+    if (!std::filesystem::is_directory(request.folder, error))
+      throw FileError("is not a folder and cannot be made one", request.folder.string(),
+                      "choose another name");
+    return entry.make(request, job);
   }
   throw ValueError("there is no figure '" + name + "'", "figures", "choose one of " + names);
 }
