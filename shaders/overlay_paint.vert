@@ -8,6 +8,7 @@ layout(std430, binding = 4) readonly buffer Coordinates { vec2 coordinates[]; };
 
 uniform mat4 worldToClip;
 uniform float squares;
+uniform int pictured;  // a picture takes the place of colours; squares = 1 then
 
 out vec3 vPosition, vNormal;
 flat out vec3 vColour;
@@ -18,7 +19,7 @@ void main() {
   vPosition = vec3(positions[vertex], positions[vertex + 1u], positions[vertex + 2u]);
   vNormal = vec3(normals[vertex], normals[vertex + 1u], normals[vertex + 2u]);
   int triangle = gl_VertexID / 3 * 3;
-  vColour = vec3(colours[triangle], colours[triangle + 1], colours[triangle + 2]);
+  vColour = pictured != 0 ? vec3(0.0) : vec3(colours[triangle], colours[triangle + 1], colours[triangle + 2]);
   vSquare = squares > 0.0 ? squares * coordinates[gl_VertexID] : vec2(0.0);
   gl_Position = worldToClip * vec4(vPosition, 1.0);
 }

@@ -3,6 +3,7 @@
 #include "ui/main_window.h"
 #include "ui/model/chart_editor.h"
 #include "ui/model/field_editor.h"
+#include "ui/model/id_view.h"
 #include "ui/model/session.h"
 #include "ui/model/wish_editor.h"
 #include "ui/viewport/viewport.h"
@@ -29,8 +30,9 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
   });
   window.setPictureMode(true);
   if (!options.dock.isEmpty()) window.bringToFront(options.dock);
-  session.field().setShown(options.showField);
-  session.wishes().setShown(options.showWishes);
+  session.field().setShown(options.shown == u"field");
+  session.wishes().setShown(options.shown == u"wishes");
+  session.ids().setShown(options.shown == u"ids");
   QTimer poll;
   int calm = 0;
   bool cut = !options.autoCut;

@@ -51,10 +51,9 @@ Options parse(const QApplication& application) {
         QStringLiteral("NAME")},
        {QStringLiteral("auto-cut"),
         QStringLiteral("cut charts before the picture is taken; with --dock charts")},
-       {QStringLiteral("show-field"),
-        QStringLiteral("lay the orientation field over the model; with --dock synthesis")},
-       {QStringLiteral("show-wishes"),
-        QStringLiteral("show where parts of the patch are wished for; with --dock synthesis")},
+       {QStringLiteral("show"),
+        QStringLiteral("what the picture shows on the model: field, wishes or ids; with --dock synthesis"),
+        QStringLiteral("NAME")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
         QStringLiteral("NAME")},
        {QStringLiteral("errors"),
@@ -83,8 +82,10 @@ Options parse(const QApplication& application) {
   options.screenshot.file = parser.value(QStringLiteral("screenshot"));
   options.screenshot.dock = parser.value(QStringLiteral("dock"));
   options.screenshot.autoCut = parser.isSet(QStringLiteral("auto-cut"));
-  options.screenshot.showField = parser.isSet(QStringLiteral("show-field"));
-  options.screenshot.showWishes = parser.isSet(QStringLiteral("show-wishes"));
+  options.screenshot.shown = parser.value(QStringLiteral("show"));
+  if (parser.isSet(QStringLiteral("show")) && options.screenshot.shown != u"field" &&
+      options.screenshot.shown != u"wishes" && options.screenshot.shown != u"ids")
+    wrong(QStringLiteral("--show takes field, wishes or ids"));
   options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
   if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
       options.screenshot.sheet != u"keys")

@@ -16,7 +16,7 @@ namespace {
 
 constexpr unsigned kPlacesBinding = 0;
 enum PaintBinding : unsigned { kPositions, kNormals, kCorners, kColors, kCoordinates };
-constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUnit = 3;
+constexpr int kScaleUnit = 0, kOneSampleUnit = 1, kManySamplesUnit = 2, kMarksUnit = 3, kPictureUnit = 4;
 
 void fit(Framebuffer& target, const OverlayPicture& picture, PixelFormat format, bool depth, int samples) {
   if (target && target.width() == picture.width && target.height() == picture.height &&
@@ -48,6 +48,7 @@ SurfaceOverlay::SurfaceOverlay()
   scale_ = Texture::fromImage(scale, Wrap::Clamp, false);
   surfaceProgram_.set("scale", kScaleUnit);
   surfaceProgram_.set("unknown", kUnknownColor);
+  paintProgram_.set("picture", kPictureUnit);
   marksProgram_.set("surfaceDepth", kOneSampleUnit);
   marksProgram_.set("surfaceDepths", kManySamplesUnit);
   composeProgram_.set("surface", kOneSampleUnit);
@@ -84,9 +85,11 @@ void SurfaceOverlay::setValues(std::span<const float> values) {
 
 void SurfaceOverlay::setPaint(const SurfacePaint& paint) {
   checkPaint(paint, std::size_t(indexCount_) / 3);
-  hasPaint_ = !paint.colors.empty();
-  squares_ = hasPaint_ && !paint.uv.empty() ? paint.squares : 0;
-  if (hasPaint_) paintColors_.upload(std::span<const Rgb>(paint.colors));
+  hasPaint_ = paint.covers();
+  pictured_ = paint.picture != nullptr;
+  picture_ = pictured_ ? Texture::fromImage(*paint.picture, Wrap::Clamp, false) : Texture();
+  squares_ = pictured_ ? 1 : hasPaint_ && !paint.uv.empty() ? paint.squares : 0;
+  if (!paint.colors.empty()) paintColors_.upload(std::span<const Rgb>(paint.colors));
   if (squares_ > 0) paintUv_.upload(std::span<const Vec2>(paint.uv));
   seams_.upload(paint.seams);
 }
@@ -157,10 +160,12 @@ void SurfaceOverlay::drawSurface(const OverlayPicture& picture, int samples) {
   if (hasPaint_) {
     setView(paintProgram_, picture);
     paintProgram_.set("squares", squares_);
+    paintProgram_.set("pictured", pictured_ ? 1 : 0);
+    if (pictured_) picture_.bind(kPictureUnit);
     positions_.bindStorage(kPositions);
     normals_.bindStorage(kNormals);
     indices_.bindStorage(kCorners);
-    paintColors_.bindStorage(kColors);
+    if (!pictured_) paintColors_.bindStorage(kColors);
     if (squares_ > 0) paintUv_.bindStorage(kCoordinates);
     paintProgram_.use();
     glBindVertexArray(emptyArray_.id());

@@ -61,7 +61,7 @@ class SurfaceOverlay {
   Program surfaceProgram_, paintProgram_, marksProgram_, composeProgram_;
   VertexArray meshArray_, emptyArray_;
   Buffer positions_, normals_, values_, indices_, paintColors_, paintUv_;
-  Texture scale_;
+  Texture scale_, picture_;
   Framebuffer surface_, cover_;
   Uploaded seams_;
   std::vector<Uploaded> marks_;
@@ -69,7 +69,7 @@ class SurfaceOverlay {
   std::size_t vertexCount_ = 0;
   int indexCount_ = 0;
   float squares_ = 0;  // of the paint; 0: none
-  bool hasValues_ = false, hasPaint_ = false, marked_ = false;
+  bool hasValues_ = false, hasPaint_ = false, pictured_ = false, marked_ = false;
 };
 
 }  // namespace prt::gl

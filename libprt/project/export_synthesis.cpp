@@ -28,10 +28,14 @@ void writeIdMapArray(const IdMap& map, const WriteArray& write) {
         "surface");
 }
 
-Image idMapPicture(const IdMap& map) {
-  Image picture(map.size, map.size, 3);
-  for (std::size_t i = 0; i < picture.pixels(); ++i)
-    if (const Vec2 u = map.at(i); u.x >= 0) picture.data[3 * i] = u.x, picture.data[3 * i + 1] = u.y;
+Image idMapPicture(const IdMap& map, int side) {
+  if (side <= 0) side = map.size;
+  Image picture(side, side, 3);
+  const auto at = [&](int i) { return std::size_t((2 * std::int64_t(i) + 1) * map.size / (2 * side)); };
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      if (const Vec2 u = map.at(at(y) * std::size_t(map.size) + at(x)); u.x >= 0)
+        picture.pixel(x, y)[0] = u.x, picture.pixel(x, y)[1] = u.y;
   return picture;
 }
 

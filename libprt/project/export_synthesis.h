@@ -18,7 +18,8 @@ void writeMesoArrays(const SynthesisProduct& synthesis, const WriteArray& write)
 void writeIdMapArray(const IdMap& map, const WriteArray& write);
 
 /// The id map as a picture: u in red, v in green, black where there is none (figure 2c of the bi-scale
-/// paper). Display-encoded: the numbers themselves.
-Image idMapPicture(const IdMap& map);
+/// paper). Display-encoded: the numbers themselves. `side` pixels, each one texel of the map; 0: as many as
+/// it has.
+Image idMapPicture(const IdMap& map, int side = 0);
 
 }  // namespace prt

@@ -158,12 +158,20 @@ Rgb valueColor(const TriMesh& mesh, std::span<const float> values, const Fragmen
                               : -1.0f);
 }
 
+Rgb pictureColor(const Image& picture, const Vec2& at) {
+  const auto texel = [](float t, int size) {
+    return std::clamp(int(std::floor(t * float(size))), 0, size - 1);
+  };
+  return picture.rgb(texel(at.x, picture.width), texel(1 - at.y, picture.height));
+}
+
 Rgb paintColor(const SurfacePaint& paint, const Fragment& f) {
-  const Rgb color = paint.colors[f.triangle];
+  const Rgb color = paint.picture ? Rgb(0) : paint.colors[f.triangle];
   if (paint.uv.empty()) return color;
   const Vec3 weight = weightsOf(f);
   const Vec2* uv = &paint.uv[3 * std::size_t(f.triangle)];
   const Vec2 at = weight.x * uv[0] + weight.y * uv[1] + weight.z * uv[2];
+  if (paint.picture) return pictureColor(*paint.picture, at);
   return onDarkSquare(at, paint.squares) ? kDarkSquare * color : color;
 }
 
@@ -176,9 +184,13 @@ Box3 SurfaceMarks::bounds() const {
   return box;
 }
 
+bool SurfacePaint::fits(std::size_t triangles) const {
+  const bool coordinates = uv.size() == 3 * triangles;
+  return (colors.empty() || colors.size() == triangles) && (coordinates || (uv.empty() && !picture));
+}
+
 void checkPaint(const SurfacePaint& paint, std::size_t triangles) {
-  if ((!paint.colors.empty() && paint.colors.size() != triangles) ||
-      (!paint.uv.empty() && paint.uv.size() != 3 * triangles))
+  if (!paint.fits(triangles))
     throw ValueError("paint of " + std::to_string(paint.colors.size()) + " colours for a mesh of " +
                          std::to_string(triangles) + " triangles",
                      "overlay", "give one colour for each triangle, and three texture coordinates");
@@ -196,7 +208,7 @@ Image drawSurfaceOverlay(const TriMesh& mesh, std::span<const float> values, con
                          std::to_string(mesh.vertexCount()) + " vertices",
                      "overlay", "give one value for each vertex");
   checkPaint(paint, mesh.triangleCount());
-  const bool painted = !paint.colors.empty();
+  const bool painted = paint.covers();
   Image image(picture.width, picture.height, 4);
   std::vector<float> surface(std::size_t(picture.width) * std::size_t(picture.height),
                              std::numeric_limits<float>::infinity());

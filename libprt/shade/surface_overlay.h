@@ -9,6 +9,7 @@
 #include "libprt/shade/camera.h"
 
 #include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,14 +31,22 @@ struct SurfaceMarks {
   Box3 bounds() const;
 };
 
-/// Colours laid on the surface triangle by triangle, and squares in texture space over them.
+/// Colours laid on the surface triangle by triangle, and squares in texture space over them; or a picture in
+/// texture space.
 struct SurfacePaint {
   std::vector<Rgb> colors;  ///< [F] as the screen shows them
   std::vector<Vec2> uv;     ///< [3F] texture coordinates of each triangle's corners; empty: no squares
   float squares = 32;       ///< along a side of the texture; every other one is darker
-  SurfaceMarks seams;       ///< lines over it, under all other marks
+  /// In place of colours and squares: RGB as the screen shows it, over the unit square of `uv`, v = 1 at the
+  /// top; the texel at a place, not mixed with others. Null: none.
+  std::shared_ptr<const Image> picture = {};
+  SurfaceMarks seams;  ///< lines over it, under all other marks
 
-  bool empty() const { return colors.empty() && seams.empty(); }
+  bool empty() const { return !covers() && seams.empty(); }
+  /// Whether the surface itself is painted.
+  bool covers() const { return picture || !colors.empty(); }
+  /// Whether it can be laid on a surface of so many triangles.
+  bool fits(std::size_t triangles) const;
 };
 /// Brightness of the darker squares.
 inline constexpr float kDarkSquare = 0.55f;

@@ -117,6 +117,27 @@ TEST_F(SurfaceOverlayGl, SoIsPaintWithSquaresAndSeams) {
   EXPECT_THROW(overlay.setPaint(paint), ValueError);
 }
 
+TEST_F(SurfaceOverlayGl, SoIsAPictureInTextureSpace) {
+  SurfacePaint paint;
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) paint.uv.push_back(0.4f * Vec2(mesh.positions[t[k]]) + Vec2(0.5f));
+  Image texture(8, 5, 3);
+  for (std::size_t i = 0; i < texture.data.size(); ++i) texture.data[i] = float(i * 37 % 101) / 100;
+  paint.picture = std::make_shared<const Image>(std::move(texture));
+  overlay.setPaint(paint);
+  Job job;
+  const auto off = [&] {
+    const Image cpu = drawSurfaceOverlay(mesh, {}, paint, {}, picture, job), gpu = overlay.render(picture);
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < cpu.data.size(); ++i)
+      different += std::abs(cpu.data[i] - gpu.data[i]) > 2.5f / 255;
+    return double(different) / double(cpu.data.size());
+  };
+  EXPECT_LT(off(), 0.02);
+  paint.picture = std::make_shared<const Image>(8, 5, 3);
+  EXPECT_GT(off(), 0.05) << "the picture is there";
+}
+
 TEST_F(SurfaceOverlayGl, SoAreLayersOfMarksWithSizesOfTheirOwn) {
   std::vector<SurfaceMarks> layers(2, marks());
   layers[0].points.clear(), layers[0].edges.clear(), layers[0].fill = 0.35f;

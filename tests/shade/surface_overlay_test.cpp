@@ -71,6 +71,26 @@ TEST(SurfaceOverlay, PaintColoursTrianglesAndDarkensSquares) {
   EXPECT_THROW(drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job), ValueError);
 }
 
+TEST(SurfaceOverlay, APictureIsLaidOverItsCoordinates) {
+  const TriMesh mesh = square();
+  SurfacePaint paint;
+  for (const UVec3& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) paint.uv.push_back(Vec2(mesh.positions[t[k]]) + Vec2(0.5f));
+  Image picture4(2, 2, 3);
+  picture4.pixel(0, 0)[0] = 1, picture4.pixel(1, 0)[1] = 1,
+                    picture4.pixel(0, 1)[2] = 1;  // red, green / blue, black
+  paint.picture = std::make_shared<const Image>(std::move(picture4));
+  EXPECT_FALSE(paint.empty());
+  Job job;
+  const Image drawn = drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job);
+  EXPECT_NEAR(at(drawn, 75, 75).x, 1, 0.02f) << "v = 1 is at the top";
+  EXPECT_NEAR(at(drawn, 125, 75).y, 1, 0.02f);
+  EXPECT_NEAR(at(drawn, 75, 125).z, 1, 0.02f);
+  EXPECT_EQ(at(drawn, 125, 125), Vec4(0, 0, 0, 1)) << "black, and covers";
+  paint.uv.pop_back();
+  EXPECT_THROW(drawSurfaceOverlay(mesh, {}, paint, {}, picture(), job), ValueError);
+}
+
 TEST(SurfaceOverlay, MarksAreInFrontOrShineThrough) {
   SurfaceMarks marks;
   marks.color = Rgb(1, 0, 0);

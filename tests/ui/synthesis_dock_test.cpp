@@ -9,6 +9,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollArea>
 
 namespace prt::ui {
 namespace {
@@ -75,6 +76,36 @@ TEST_F(SynthesisDockTest, OneClickShowsThePatchOnTheSurfaceAndUndoTakesItAway) {
   session.document().undo();
   EXPECT_FALSE(shown()->isChecked());
   EXPECT_LT(difference(plain, picture()), 0.002);
+}
+
+TEST_F(SynthesisDockTest, IdsAreShownOnTheModelInRedAndGreen) {
+  Recipe recipe = smallPatch();
+  recipe.method.name = "biscale";
+  openAndSettle(recipe);
+  auto* ids = window.findChild<QCheckBox*>(s("showIds"));
+  ASSERT_TRUE(ids->isEnabled());
+  for (QScrollArea* column : window.findChildren<QScrollArea*>())
+    if (column->isAncestorOf(ids)) column->ensureWidgetVisible(ids);
+  const QImage before = picture();
+  Pointer(ids).click(QPointF(8, ids->height() / 2.0));
+  const QImage after = picture();
+  EXPECT_GT(difference(before, after), 0.02);
+  // On the model there is no blue, and all kinds of red and green.
+  int onModel = 0, blue = 0, red = 0, green = 0;
+  for (int y = -60; y <= 60; y += 4)
+    for (int x = -20; x <= 20; x += 4) {
+      const QPoint at(window.viewport().width() / 2 + x, window.viewport().height() / 2 + y);
+      if (!window.viewport().pick(at)) continue;
+      const QColor color = after.pixelColor(at);
+      ++onModel;
+      blue += color.blue() > 40, red += color.red() > 128, green += color.green() > 128;
+    }
+  EXPECT_GT(onModel, 100);
+  EXPECT_LT(blue, onModel / 20);
+  EXPECT_GT(red, onModel / 8);
+  EXPECT_GT(green, onModel / 8);
+  Pointer(ids).click(QPointF(8, ids->height() / 2.0));
+  EXPECT_LT(difference(before, picture()), 0.002);
 }
 
 TEST_F(SynthesisDockTest, TheLightTurnsOverThePatchWithoutABake) {

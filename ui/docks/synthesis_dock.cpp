@@ -3,6 +3,7 @@
 #include "libprt/project/laid_patch.h"
 #include "ui/docks/bake_footer.h"
 #include "ui/model/field_editor.h"
+#include "ui/model/id_view.h"
 #include "ui/model/session.h"
 #include "ui/model/wish_editor.h"
 #include "ui/widgets/exemplar_square.h"
@@ -41,6 +42,12 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
   map_->setAlignment(Qt::AlignCenter);
   map_->setToolTip(tr("The place in the patch of every texel of the atlas: u in red, v in green."));
   texture_->add(map_);
+  ids_ = new QCheckBox(tr("Ids on the surface"));
+  ids_->setObjectName(QStringLiteral("showIds"));
+  ids_->setToolTip(tr("The place in the patch that every place of the model shows: u in red, v in green."));
+  connect(ids_, &QCheckBox::clicked, this, [this](bool on) { session_.ids().setShown(on); });
+  texture_->add(ids_);
+  connect(&session_.ids(), &IdView::changed, this, &SynthesisDock::refreshResult);
   auto* result = new Section(tr("Result"));
   result->add(footer_);
   add(result);
@@ -245,6 +252,8 @@ void SynthesisDock::refresh() {
 
 void SynthesisDock::refreshResult() {
   footer_->refresh(showsPatch(session_.document().recipe()), resultText());
+  ids_->setChecked(session_.ids().shown());
+  ids_->setEnabled(session_.ids().available());
   const Image& map = look_.map();
   map_->setVisible(map.width > 0);
   if (map.width > 0)

@@ -49,7 +49,7 @@ class SynthesisDock : public DockColumn {
   QPushButton *draw_ = nullptr, *erase_ = nullptr;
   QCheckBox* field_ = nullptr;
   QPushButton *paint_ = nullptr, *clear_ = nullptr;
-  QCheckBox* wishes_ = nullptr;
+  QCheckBox *wishes_ = nullptr, *ids_ = nullptr;
   NumberField* width_ = nullptr;
   QLabel *strokes_ = nullptr, *spots_ = nullptr;
   BakeFooter* footer_;

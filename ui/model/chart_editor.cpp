@@ -491,9 +491,9 @@ void ChartEditor::paint() {
     }
   }
   // A picture of the model takes longer than all else here: none without a reason.
-  const SurfacePaint& old = session_.layers().paint();
+  const SurfacePaint& old = session_.layers().paintOf(PaintOwner::Charts);
   const bool same = paint.colors == old.colors && paint.uv == old.uv && paint.seams.edges == old.seams.edges;
-  if (!same) session_.layers().setPaint(std::move(paint));
+  if (!same) session_.layers().setPaint(PaintOwner::Charts, std::move(paint));
 }
 
 }  // namespace prt::ui

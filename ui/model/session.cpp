@@ -12,6 +12,7 @@
 #include "ui/model/error_estimate.h"
 #include "ui/model/expression.h"
 #include "ui/model/field_editor.h"
+#include "ui/model/id_view.h"
 #include "ui/model/painting.h"
 #include "ui/model/scene_editor.h"
 #include "ui/model/wish_editor.h"
@@ -59,7 +60,8 @@ Session::Session(QObject* parent)
       errors_(std::make_unique<ErrorEstimate>(*this)),
       painting_(std::make_unique<Painting>(*this)),
       field_(std::make_unique<FieldEditor>(*this)),
-      wishes_(std::make_unique<WishEditor>(*this)) {
+      wishes_(std::make_unique<WishEditor>(*this)),
+      ids_(std::make_unique<IdView>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);
   connect(&bakes_, &BakeController::productArrived, this, &Session::take);

@@ -32,6 +32,7 @@ class ChartEditor;
 class DefectView;
 class ErrorEstimate;
 class FieldEditor;
+class IdView;
 class Painting;
 class SceneEditor;
 class WishEditor;
@@ -69,6 +70,7 @@ class Session : public QObject {
   ChartEditor& charts() { return *charts_; }
   Painting& painting() { return *painting_; }
   FieldEditor& field() { return *field_; }
+  IdView& ids() { return *ids_; }
   WishEditor& wishes() { return *wishes_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
@@ -165,6 +167,7 @@ class Session : public QObject {
   std::unique_ptr<Painting> painting_;
   std::unique_ptr<FieldEditor> field_;
   std::unique_ptr<WishEditor> wishes_;
+  std::unique_ptr<IdView> ids_;
   SurfacePatch patch_{document_, bakes_, relighter_, jobs_};
 };
 

@@ -11,6 +11,8 @@
 
 namespace prt::ui {
 
+/// Who paints the surface; of several the last one is seen.
+enum class PaintOwner { Charts, Ids };
 /// Who marks the surface; later ones lie over earlier ones.
 enum class MarkOwner { Wishes, Field, Defects };
 
@@ -40,18 +42,20 @@ class SurfaceLayers : public QObject {
 
   /// Colours of the scene's triangles, in place of the values; a canvas leaves out paint that does not fit
   /// its scene.
-  void setPaint(SurfacePaint paint) {
-    if (paint.empty() && paint_.empty()) return;
-    paint_ = std::move(paint);
+  void setPaint(PaintOwner owner, SurfacePaint paint) {
+    SurfacePaint& own = paints_[std::size_t(owner)];
+    if (paint.empty() && own.empty()) return;
+    own = std::move(paint);
     ++paintVersion_;
     Q_EMIT changed();
   }
 
   const std::vector<float>& values() const { return values_; }
-  const SurfacePaint& paint() const { return paint_; }
+  const SurfacePaint& paint() const { return paints_[1].empty() ? paints_[0] : paints_[1]; }
+  const SurfacePaint& paintOf(PaintOwner owner) const { return paints_[std::size_t(owner)]; }
   /// Of all owners, the lowest first.
   const std::vector<SurfaceMarks>& marks() const { return marks_; }
-  bool empty() const { return values_.empty() && paint_.empty() && marks_.empty(); }
+  bool empty() const { return values_.empty() && paint().empty() && marks_.empty(); }
   // Each grows with every change.
   quint64 valuesVersion() const { return valuesVersion_; }
   quint64 paintVersion() const { return paintVersion_; }
@@ -62,7 +66,7 @@ class SurfaceLayers : public QObject {
 
  private:
   std::vector<float> values_;
-  SurfacePaint paint_;
+  std::array<SurfacePaint, 2> paints_;               // by owner
   std::array<std::vector<SurfaceMarks>, 3> marked_;  // by owner
   std::vector<SurfaceMarks> marks_;
   quint64 valuesVersion_ = 0, paintVersion_ = 0, marksVersion_ = 0;

@@ -50,8 +50,7 @@ QImage CpuCanvas::withLayers(const QImage& surface, const LiveScene& scene, cons
                              const Layers& layers, Job& job) {
   const bool fits = scene.scene && layers.values.size() == scene.scene->mesh.vertexCount();
   const SurfacePaint& paint = layers.paint;
-  const bool painted = scene.scene && !paint.empty() &&
-                       (paint.colors.empty() || paint.colors.size() == scene.scene->mesh.triangleCount());
+  const bool painted = scene.scene && !paint.empty() && paint.fits(scene.scene->mesh.triangleCount());
   if (!scene.scene || (!fits && !painted && layers.marks.empty())) return surface;
   const OverlayPicture over{camera, surface.width(), surface.height(), layers.grid, layers.pixelScale};
   QImage image = surface;

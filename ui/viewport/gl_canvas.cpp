@@ -248,8 +248,7 @@ void GlCanvas::drawLayers() {
     layersValues_ = over.valuesVersion();
   }
   if (layersPaint_ != over.paintVersion()) {
-    const std::vector<Rgb>& colors = over.paint().colors;
-    const bool fits = colors.empty() || colors.size() == lit.scene()->mesh.triangleCount();
+    const bool fits = over.paint().fits(lit.scene()->mesh.triangleCount());
     layers_->setPaint(fits ? over.paint() : SurfacePaint{});
     layersPaint_ = over.paintVersion();
   }
