@@ -45,7 +45,7 @@ LightRig figureLamp() {
 Camera figureCamera(const TriMesh& mesh, int width, int height) {
   constexpr float kMargin = 0.04f, kNearer = 0.97f;
   const auto fits = [&](const Camera& camera) {
-    const Vec2 size(float(width), float(height)), least = kMargin * size, most = size - least;
+    const Vec2 size{float(width), float(height)}, least = kMargin * size, most = size - least;
     return std::all_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& p) {
       const std::optional<Vec2> at = camera.project(p, width, height);
       return at && at->x > least.x && at->y > least.y && at->x < most.x && at->y < most.y;
