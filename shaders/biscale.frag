@@ -10,12 +10,15 @@ layout(location = 0) out vec4 colour;
 #include "tangent.glsl"
 #include "view_square.glsl"
 
+layout(std430, binding = 0) readonly buffer PlainTexels { uint plainTexels[]; };  // per triangle; kPatched: none
 layout(std430, binding = 3) readonly buffer Normals { float normals[]; };         // three per vertex
 layout(std430, binding = 4) readonly buffer Tangents { float tangents[]; };       // three per corner
 layout(std430, binding = 5) readonly buffer Coordinates { vec2 coordinates[]; };  // per corner, in the atlas or in patches
 
 uniform samplerBuffer light;       // per vertex, channel and group: two times four functions
 uniform usamplerBuffer responses;  // per texel, view, channel and group: eight functions as half floats
+uniform usamplerBuffer plainResponses;  // of objects without a patch, three channels
+uniform int plainViewSide;
 uniform usampler2D ids;            // the id map, rows from the top
 uniform int mapSize;               // 0: coordinates are the patch's own
 uniform int side, viewSide;        // texels of the patch; views
@@ -24,7 +27,7 @@ uniform vec3 patchColour;
 uniform vec4 viewer;  // where, w = 1; or in which direction, w = 0
 uniform int viewDependent;
 
-const uint kEmpty = 65535u;
+const uint kEmpty = 65535u, kPatched = 0xffffffffu;
 
 vec3 normalOf(uint v) { return vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]); }
 vec3 tangentOf(uint corner) { return vec3(tangents[3 * corner], tangents[3 * corner + 1], tangents[3 * corner + 2]); }
@@ -65,7 +68,6 @@ vec3 tangentHere(vec3 weight, vec3 normal) {
 
 // Towards the viewer, in the patch's frame.
 vec3 localView(uvec3 t, vec3 weight) {
-  if (viewDependent == 0) return vec3(0.0, 0.0, 1.0);
   vec3 normal = weight.x * normalOf(t.x) + weight.y * normalOf(t.y) + weight.z * normalOf(t.z);
   normal = dot(normal, normal) > 1e-12 ? normalize(normal) : normalOf(t.x);
   vec3 tangent = tangentHere(weight, normal);
@@ -73,12 +75,14 @@ vec3 localView(uvec3 t, vec3 weight) {
   return vec3(dot(view, tangent), dot(view, cross(normal, tangent)), dot(view, normal));
 }
 
-// Adds eight functions of a texel's response, between the views around the viewer's.
+// Adds eight functions of a texel's response, between the views around the viewer's. The table has `viewsHere`
+// views a side and `channelsHere` channels.
 uvec4 view;
 vec4 share;
+int viewsHere, channelsHere;
 #define ADD(table, number, factor) \
   { \
-    ivec4 block = ivec4(((number) * uint(viewSide * viewSide) + view) * uint(channels * groups)) + at; \
+    ivec4 block = ivec4(((number) * uint(viewsHere * viewsHere) + view) * uint(channelsHere * groups)) + at; \
     for (int i = 0; i < 4; ++i) { \
       uvec4 halfs = texelFetch(table, block[i]); \
       low += (factor) * share[i] * vec4(unpackHalf2x16(halfs.x), unpackHalf2x16(halfs.y)); \
@@ -91,30 +95,36 @@ void main() {
   if (!gl_FrontFacing) return;
   uvec3 t = triangle();
   vec3 weight = barycentric(t);
-  uint texel;
+  uint texel = plainTexels[gl_PrimitiveID];
+  bool plain = texel != kPatched;
 #ifdef FILTER
-  bool filtered = filterHere(t, weight);
-  if (!filtered && !texelHere(weight, texel)) return;
+  bool filtered = !plain && filterHere(t, weight);
+  if (!plain && !filtered && !texelHere(weight, texel)) return;
 #else
-  if (!texelHere(weight, texel)) return;
+  if (!plain && !texelHere(weight, texel)) return;
 #endif
-  viewsAround(localView(t, weight), viewSide, view, share);
+  viewsHere = plain ? plainViewSide : viewSide;
+  channelsHere = plain ? 3 : channels;
+  viewsAround(viewDependent != 0 || plain ? localView(t, weight) : vec3(0.0, 0.0, 1.0), viewsHere, view, share);
 
   ivec3 corner = ivec3(t * uint(6 * groups));
   vec3 sum = vec3(0.0);
   for (int k = 0; k < groups; ++k) {
     vec4 low, high;
     for (int c = 0; c < 3; ++c) {
-      if (c < channels) {
+      if (c < channelsHere) {
         int at = c * groups + k;
         low = high = vec4(0.0);
+        if (plain)
+          ADD(plainResponses, texel, 1.0)
 #ifdef FILTER
-        if (filtered) {
+        else if (filtered) {
           for (int e = 0; e < exactCount; ++e) ADD(responses, exactTexel[e], exactWeight[e])
           if (coarseToo)
             for (int e = 0; e < termCount; ++e) ADD(terms, uint(e), coefficient[e])
-        } else
+        }
 #endif
+        else
           ADD(responses, texel, 1.0)
       }
       ivec3 at = corner + 2 * (c * groups + k);
@@ -124,5 +134,5 @@ void main() {
       sum[c] += dot(low, lightLow) + dot(high, lightHigh);
     }
   }
-  colour.rgb = sound(patchColour * sum);
+  colour.rgb = sound((plain ? vec3(1.0) : patchColour) * sum);
 }

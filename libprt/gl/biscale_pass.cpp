@@ -14,10 +14,10 @@ namespace prt::gl {
 
 namespace {
 
-constexpr unsigned kCornerBinding = 1, kPositionBinding = 2, kNormalBinding = 3, kTangentBinding = 4,
-                   kCoordinateBinding = 5, kRectangleBinding = 6, kChartBinding = 7;
+constexpr unsigned kPlainBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kNormalBinding = 3,
+                   kTangentBinding = 4, kCoordinateBinding = 5, kRectangleBinding = 6, kChartBinding = 7;
 constexpr unsigned kLightUnit = 0, kResponseUnit = 1, kIdUnit = 2, kCoefficientUnit = 3, kTermUnit = 4,
-                   kOwnerUnit = 5;
+                   kOwnerUnit = 5, kPlainUnit = 6;
 
 Program programWith(const std::string& prelude) {
   Program program = Program::fromLibrary("biscale.vert", "biscale.frag", prelude);
@@ -27,6 +27,7 @@ Program programWith(const std::string& prelude) {
   program.set("coefficients", int(kCoefficientUnit));
   program.set("terms", int(kTermUnit));
   program.set("owners", int(kOwnerUnit));
+  program.set("plainResponses", int(kPlainUnit));
   return program;
 }
 
@@ -37,10 +38,11 @@ BiscalePass::BiscalePass()
       array_(VertexArray::create()),
       light_(BufferTexture::create(BufferTexture::Format::Floats)),
       responses_(BufferTexture::create(BufferTexture::Format::Integers)),
+      plainResponses_(BufferTexture::create(BufferTexture::Format::Integers)),
       coefficients_(BufferTexture::create(BufferTexture::Format::Integers)),
       terms_(BufferTexture::create(BufferTexture::Format::Integers)) {
   for (Buffer* buffer :
-       {&positions_, &normals_, &tangents_, &corners_, &coordinates_, &rectangles_, &charts_})
+       {&positions_, &normals_, &tangents_, &corners_, &coordinates_, &rectangles_, &charts_, &plainTexels_})
     *buffer = Buffer::create();
   checkErrors("start of the bi-scale pass");
 }
@@ -55,6 +57,7 @@ void BiscalePass::setSurface(std::shared_ptr<const BiscaleSurface> surface) {
   if (!before || surface->responses != before->responses)
     responses_.upload(surface->responses->halfs(), "radiance transfer texture");
   if (surface->filter && (!before || surface->filter != before->filter)) uploadFilter(*surface->filter);
+  if (!before || surface->scene != before->scene || surface->plain != before->plain) uploadPlain(*surface);
   const std::vector<float> black(surface->shading.size() * 3 * surface->responses->padded(), 0.0f);
   light_.upload(std::span<const float>(black), "light on the patch");
   checkErrors("upload of the patch");
@@ -101,6 +104,18 @@ void BiscalePass::uploadFilter(const PatchFilter& filter) {
   filterProgram_.set("scales", filter.scales());
 }
 
+void BiscalePass::uploadPlain(const BiscaleSurface& surface) {
+  if (surface.plain) {
+    plainTexels_.upload(surface.plain->texels());
+    plainResponses_.upload(surface.plain->responses().halfs(), "materials beside the patch");
+  } else {
+    const std::vector<std::uint32_t> none(surface.scene->mesh.triangleCount(), PlainObjects::kPatched);
+    plainTexels_.upload(std::span<const std::uint32_t>(none));
+    static constexpr std::array<std::uint16_t, 8> kNothing{};
+    plainResponses_.upload(std::span<const std::uint16_t>(kNothing), "materials beside the patch");
+  }
+}
+
 void BiscalePass::setLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job) {
   if (!surface_) return;
   std::vector<std::uint32_t> frames(surface_->shading.size());
@@ -119,6 +134,7 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
   program.set("channels", responses.channels());
   program.set("groups", int(responses.padded() / 8));
   program.set("patchColour", responses.colour());
+  program.set("plainViewSide", surface_->plain ? surface_->plain->responses().views().side() : 1);
   program.set("mapSize", surface_->cover->map() ? surface_->cover->map()->size : 0);
   program.set("worldToClip", view.worldToClip);
   program.set("viewer", view.steps.viewer);
@@ -133,6 +149,7 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
     terms_.bind(kTermUnit);
     owners_.bind(kOwnerUnit);
   }
+  plainTexels_.bindStorage(kPlainBinding);
   corners_.bindStorage(kCornerBinding);
   positions_.bindStorage(kPositionBinding);
   normals_.bindStorage(kNormalBinding);
@@ -140,6 +157,7 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
   coordinates_.bindStorage(kCoordinateBinding);
   light_.bind(kLightUnit);
   responses_.bind(kResponseUnit);
+  plainResponses_.bind(kPlainUnit);
   ids_.bind(kIdUnit);
   program.use();
   glBindVertexArray(array_.id());

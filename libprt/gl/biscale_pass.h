@@ -4,7 +4,8 @@
 // shader interpolates it over the triangle and meets it with the radiance transfer texture at the texel that
 // the id map names, between the four views around the viewer's direction. The views of a texel lie together
 // in one buffer and are weighed by the shader, so nothing bleeds from one texel's views into another's.
-// A surface with a filter is filtered as there, by the same formulas (shade/patch_filter.h).
+// A surface with a filter is filtered as there, by the same formulas (shade/patch_filter.h). Objects without
+// a patch take the texel of their material (shade/plain_objects.h).
 // Every function needs the context that was current when it was made.
 
 #include "libprt/basis/sh.h"
@@ -34,20 +35,22 @@ class BiscalePass {
 
   bool empty() const { return !surface_; }
   const Box3& bounds() const { return bounds_; }
-  /// `viewDependent` false: the patch looks from everywhere as it does from above.
+  /// `viewDependent` false: the patch, not the rest, looks from everywhere as it does from above.
   void draw(const SurfaceView& view, bool viewDependent);
 
  private:
   void uploadGeometry(const BiscaleSurface& surface);
   void uploadCover(const PatchCover& cover);
   void uploadFilter(const PatchFilter& filter);
+  void uploadPlain(const BiscaleSurface& surface);
   Program& program() { return surface_->filter ? filterProgram_ : program_; }
 
   std::shared_ptr<const BiscaleSurface> surface_;
   Program program_, filterProgram_;  // the second made for the first filter
   VertexArray array_;
   Buffer positions_, normals_, tangents_, corners_, coordinates_;
-  BufferTexture light_, responses_;
+  BufferTexture light_, responses_, plainResponses_;
+  Buffer plainTexels_;
   Texture ids_;
   Buffer rectangles_, charts_;  // of the filter, like those that follow
   BufferTexture coefficients_, terms_;

@@ -5,6 +5,8 @@
 #include "libprt/project/products.h"
 #include "libprt/project/synthesis_stages.h"
 
+#include <algorithm>
+
 namespace prt {
 namespace {
 
@@ -21,6 +23,16 @@ std::shared_ptr<const PatchCover> coverOf(const Products& products, const Recipe
   const auto atlas = products.get<AtlasProduct>("atlas");
   if (!idmap || !idmap->map || !atlas || !atlas->atlas) return nullptr;
   return std::make_shared<PatchCover>(atlas->atlas, idmap->map, scene->mesh.triangleCount());
+}
+
+/// Null when all carry the patch.
+std::shared_ptr<const PlainObjects> plainObjects(const Scene& scene, const Recipe& recipe, int bands) {
+  std::vector<bool> carries;
+  std::vector<Material> materials;
+  for (const ObjectRecipe& object : recipe.objects)
+    carries.push_back(object.patch), materials.push_back(object.material);
+  if (std::find(carries.begin(), carries.end(), false) == carries.end()) return nullptr;
+  return std::make_shared<PlainObjects>(scene, carries, materials, bands);
 }
 
 }  // namespace
@@ -42,13 +54,32 @@ std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const 
   const auto frames = products.get<FramesProduct>("frames");
   const auto rtt = products.get<RttProduct>("rtt");
   if (!scene || !frames || !rtt || !rtt->rtt) return nullptr;
+  if (scene->scene->materials.size() != recipe.objects.size()) return nullptr;
   const auto cover = coverOf(products, recipe, scene->scene);
   if (!cover) return nullptr;
   auto surface = std::make_shared<BiscaleSurface>(
       scene->scene, std::shared_ptr<const TangentFrames>(frames, &frames->frames), cover,
       std::make_shared<ResponseTable>(*rtt->rtt));
+  surface->plain = plainObjects(*scene->scene, recipe, rtt->rtt->bands);
   if (recipe.method.filter) surface->filter = std::make_shared<PatchFilter>(cover, *rtt->rtt, job);
   return surface;
+}
+
+std::shared_ptr<const BiscaleSurface> withPlainObjects(std::shared_ptr<const BiscaleSurface> surface,
+                                                       const Recipe& recipe) {
+  if (surface->scene->materials.size() != recipe.objects.size()) return nullptr;
+  auto plain = plainObjects(*surface->scene, recipe, surface->responses->bands());
+  if (!plain && !surface->plain) return surface;
+  auto changed = std::make_shared<BiscaleSurface>(*surface);
+  changed->plain = std::move(plain);
+  return changed;
+}
+
+std::vector<std::optional<Material>> plainMaterials(const Recipe& recipe) {
+  std::vector<std::optional<Material>> out;
+  for (const ObjectRecipe& object : recipe.objects)
+    out.push_back(object.patch ? std::nullopt : std::optional(object.material));
+  return out;
 }
 
 bool showsPatch(const Recipe& recipe) {

@@ -52,6 +52,7 @@ struct TransformRecipe {
 struct ObjectRecipe {
   std::string name = "object";
   bool visible = true;  ///< false: as if the object were not in the list
+  bool patch = true;    ///< carries the patch where one is laid; false: shows its material there too
   MeshRecipe mesh;
   TransformRecipe transform;
   Material material;

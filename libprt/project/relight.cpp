@@ -31,8 +31,9 @@ BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::strin
 
 void expectPatch(const BakedScene& baked) {
   if (!baked.patch)
-    throw ValueError("no patch is laid over the surface", "method.name",
-                     "set patch.model and method.name=biscale, and bake");
+    throw ValueError(
+        "no patch is laid over the surface", "method.name",
+        "set patch.model and method.name=biscale, let an object carry it (objects[].patch), and bake");
 }
 
 Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,

@@ -144,6 +144,7 @@ std::vector<Stage> makeStages() {
        .makes = "the place in the patch of every vertex of a dense mesh over the surface",
        .inputs = {"scene", "frames", "rtt"},
        .reads = {"field.symmetry", "synthesis"},
+       .derives = plainObjectsText,
        .wanted = grownPatch,
        .previews = false,
        .make = makeSynthesisStage,

@@ -5,6 +5,7 @@
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/product_rows.h"
 #include "libprt/project/products.h"
+#include "libprt/synthesis/mesh_part.h"
 
 #include <nlohmann/json.hpp>
 
@@ -41,7 +42,60 @@ MesoMesh firstLevels(const MesoMesh& meso, int levels) {
   return few;
 }
 
+/// What of the scene's triangles carries the patch.
+std::vector<bool> carryingTriangles(const Scene& scene, const Recipe& recipe) {
+  std::vector<bool> out;
+  out.reserve(scene.triangleObject.size());
+  for (const std::uint32_t object : scene.triangleObject) out.push_back(recipe.objects[object].patch);
+  return out;
+}
+
+/// What the patch is grown over, as a mesh of its own: meso meshes know its triangles.
+class PatchedPart {
+ public:
+  PatchedPart(const Scene& scene, const TangentFrames& frames, const Recipe& recipe) {
+    const std::vector<bool> carries = carryingTriangles(scene, recipe);
+    whole_ = std::find(carries.begin(), carries.end(), false) == carries.end();
+    if (whole_)
+      mesh_ = &scene.mesh, frames_ = &frames;
+    else
+      part_ = meshPart(scene.mesh, frames, carries), mesh_ = &part_.mesh, frames_ = &part_.frames;
+  }
+  PatchedPart(const PatchedPart&) = delete;
+  PatchedPart& operator=(const PatchedPart&) = delete;
+
+  const TriMesh& mesh() const { return *mesh_; }
+  const TangentFrames& frames() const { return *frames_; }
+  /// The same with the numbers of the scene's triangles.
+  std::shared_ptr<const MesoMesh> ofScene(std::shared_ptr<const MesoMesh> meso) const {
+    if (whole_) return meso;
+    auto out = std::make_shared<MesoMesh>(*meso);
+    for (std::uint32_t& t : out->triangle) t = part_.triangle[t];
+    return out;
+  }
+
+ private:
+  bool whole_;
+  MeshPart part_;
+  const TriMesh* mesh_;
+  const TangentFrames* frames_;
+};
+
+/// Texels that show what carries no patch become empty.
+void leaveOut(const std::vector<bool>& carries, GeometryImage& image) {
+  for (std::size_t i = 0; i < image.triangle.size(); ++i)
+    if (image.kind[i] != TexelKind::Empty && !carries[image.triangle[i]])
+      image.kind[i] = TexelKind::Empty, image.triangle[i] = kNowhere, image.barycentric[i] = Vec2(0);
+}
+
 }  // namespace
+
+std::string plainObjectsText(const Recipe& recipe) {
+  std::string text;
+  for (std::size_t i = 0; i < recipe.objects.size(); ++i)
+    if (!recipe.objects[i].patch) text += std::to_string(i) + " ";
+  return text;
+}
 
 int symmetryOf(const FieldRecipe& field) {
   return 1 << int(field.symmetry);
@@ -91,14 +145,18 @@ ProductPtr makeSynthesisStage(StageRun& run) {
   if (!grown(run.recipe()) || !rtt) return std::make_shared<SynthesisProduct>();
   const SynthesisRecipe& recipe = run.recipe().synthesis;
   Job& job = run.job();
-  const TriMesh& mesh = run.input<SceneProduct>("scene")->scene->mesh;
+  const auto scene = run.input<SceneProduct>("scene")->scene;
+  const auto frames = run.input<FramesProduct>("frames");
+  const PatchedPart part(*scene, frames->frames, run.recipe());
+  const TriMesh& mesh = part.mesh();
+  if (mesh.triangles.empty()) return std::make_shared<SynthesisProduct>();
   const Surface surface(mesh, job);
   const SurfaceSheets sheets(surface);
-  const double width = double(recipe.scale) * double(mesh.bounds().diagonal());
+  const double width = double(recipe.scale) * double(scene->mesh.bounds().diagonal());
   const auto meso = std::make_shared<const MesoMesh>(makeMesoMesh(
       mesh, sheets, {.vertices = mesoVerticesOf(recipe, surface, width, rtt->texels), .seed = recipe.seed},
       job));
-  const std::vector<Vec3> tangents = mesoTangents(*meso, run.input<FramesProduct>("frames")->frames, job);
+  const std::vector<Vec3> tangents = mesoTangents(*meso, part.frames(), job);
   const int symmetry = symmetryOf(run.recipe().field);
   const Exemplar exemplar = exemplarFor(*rtt, *meso, width, symmetry, job);
   const std::vector<VertexWish> wishes = vertexWishes(*meso, parseWishes(recipe.wishes), job);
@@ -109,13 +167,13 @@ ProductPtr makeSynthesisStage(StageRun& run) {
     options.preview = [&](std::span<const Vec2> coordinates, int level, int levels) {
       if (level == levels) return;
       auto product = std::make_shared<SynthesisProduct>();
-      product->meso = std::make_shared<MesoMesh>(firstLevels(*meso, level));
+      product->meso = part.ofScene(std::make_shared<MesoMesh>(firstLevels(*meso, level)));
       product->coordinates = std::make_shared<std::vector<Vec2>>(coordinates.begin(), coordinates.end());
       product->patchWidth = width;
       run.preview(product, level, levels);
     };
   auto product = std::make_shared<SynthesisProduct>();
-  product->meso = meso;
+  product->meso = part.ofScene(meso);
   product->coordinates =
       std::make_shared<std::vector<Vec2>>(synthesise(*meso, sheets, tangents, exemplar, options, job));
   product->patchWidth = width;
@@ -131,7 +189,8 @@ ProductPtr makeIdMapStage(StageRun& run) {
   auto product = std::make_shared<IdMapProduct>();
   if (!synthesis->meso) return product;
   Job& job = run.job();
-  const TriMesh& mesh = run.input<SceneProduct>("scene")->scene->mesh;
+  const auto scene = run.input<SceneProduct>("scene")->scene;
+  const TriMesh& mesh = scene->mesh;
   const Atlas& atlas = *run.input<AtlasProduct>("atlas")->atlas;
   const int neighbours = run.recipe().idmap.neighbours;
   // Previews are coarse on the surface, so they may be in the texture: a look must not cost seconds.
@@ -139,7 +198,8 @@ ProductPtr makeIdMapStage(StageRun& run) {
       run.fromPreview() ? std::min(run.recipe().idmap.size, kPreviewSize) : run.recipe().idmap.size;
   const Surface surface(mesh, job);
   const SurfaceSheets sheets(surface);
-  const GeometryImage image = makeGeometryImage(atlas, size, -1, job);
+  GeometryImage image = makeGeometryImage(atlas, size, -1, job);
+  leaveOut(carryingTriangles(*scene, run.recipe()), image);
   const TexelSurface texels = texelSurface(mesh, atlas, image, job);
   product->map = std::make_shared<IdMap>(
       makeIdMap(size, shootNormals(*synthesis->meso, sheets, image, texels, {neighbours}, job),

@@ -20,7 +20,8 @@ struct FieldProduct : Product {
 };
 
 /// Stage "synthesis": a meso mesh and the patch coordinates of its vertices. A preview holds the first levels
-/// of the mesh, which cover the surface more coarsely. Empty where no patch is grown.
+/// of the mesh, which cover the surface more coarsely. Objects that carry no patch have no vertices. Empty
+/// where no patch is grown, or no object carries it.
 struct SynthesisProduct : Product {
   std::shared_ptr<const MesoMesh> meso;
   std::shared_ptr<const std::vector<Vec2>> coordinates;  ///< [M] in [0, 1)^2
@@ -31,7 +32,7 @@ struct SynthesisProduct : Product {
   static ProductPtr load(ProductData data);
 };
 
-/// Stage "idmap". Empty where no patch is grown.
+/// Stage "idmap". Empty where the synthesis is.
 struct IdMapProduct : Product {
   std::shared_ptr<const IdMap> map;
 
@@ -45,6 +46,8 @@ ProductPtr makeIdMapStage(StageRun& run);
 
 /// 1, 2 or 4.
 int symmetryOf(const FieldRecipe& field);
+/// Numbers of the objects that carry no patch, which synthesis depends on; empty when all carry it.
+std::string plainObjectsText(const Recipe& recipe);
 /// What the recipe asks of the field, strokes read.
 FieldOptions fieldOptionsOf(const FieldRecipe& field);
 /// Vertices of the meso mesh that the recipe asks for.

@@ -116,7 +116,8 @@ Rgb shadeWith(const BiscaleFragment& f, const BiscaleLight& light, const Respons
 }  // namespace
 
 Rgb shadeBiscale(const BiscaleTile& tile, const BiscaleFragment& f, const BiscaleLight& light,
-                 const ResponseTable& responses) {
+                 const BiscaleSurface& surface) {
+  const ResponseTable& responses = f.plain ? surface.plain->responses() : *surface.responses;
   if (f.filtered) {
     const std::uint16_t* made = tile.responses.data() + std::size_t(f.texel) * responses.blockSize();
     return shadeWith(f, light, responses, [made](std::size_t k) { return loadHalfs(made + k); });
@@ -142,7 +143,7 @@ Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, 
     for (std::size_t p = 0; p < tile.open.size(); ++p)
       image.pixel(tile.x + int(p) % tile.width, tile.y + int(p) / tile.width)[3] = 1 - tile.open[p];
     for (const BiscaleFragment& f : tile.fragments) {
-      const Rgb c = f.share * shadeBiscale(tile, f, light, *input.surface.responses);
+      const Rgb c = f.share * shadeBiscale(tile, f, light, input.surface);
       float* to = image.pixel(tile.x + int(f.pixel) % tile.width, tile.y + int(f.pixel) / tile.width);
       to[0] += c.x, to[1] += c.y, to[2] += c.z;
     }

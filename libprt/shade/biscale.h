@@ -4,7 +4,8 @@
 //   exit radiance = sum over i of B_i(u, v) (M_p L)_i,
 // with (u, v) from the id map or the mesh's coordinates, v the view in the local frame, and M_p L
 // interpolated over the triangle in the frames of its corners. Radiance below zero becomes 0; no pixel is
-// ever NaN; the result does not depend on threads.
+// ever NaN; the result does not depend on threads. Objects that carry no patch show their material, see
+// plain_objects.h.
 
 #include "libprt/basis/sh.h"
 #include "libprt/core/image.h"
@@ -39,9 +40,9 @@ class BiscaleLight {
   std::vector<float> records_;
 };
 
-/// Linear radiance of a fragment of a tile.
+/// Linear radiance of a fragment of a tile of a view of `surface`.
 Rgb shadeBiscale(const BiscaleTile& tile, const BiscaleFragment& fragment, const BiscaleLight& light,
-                 const ResponseTable& responses);
+                 const BiscaleSurface& surface);
 
 struct BiscaleInput {
   const BiscaleSurface& surface;

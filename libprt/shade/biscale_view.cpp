@@ -119,12 +119,16 @@ class Maker {
     BiscaleFragment out;
     out.pixel = pixel, out.share = share;
     out.weight = {1 - f.barycentric.x - f.barycentric.y, f.barycentric.x, f.barycentric.y};
-    const auto views = surface_.responses->views().bilinear(localView(f));
+    if (surface_.plain) out.texel = surface_.plain->texelOf(f.triangle);
+    out.plain = surface_.plain && out.texel != PlainObjects::kPatched;
+    const ResponseTable& table = out.plain ? surface_.plain->responses() : *surface_.responses;
+    const bool fromAbove = !options_.viewDependent && !out.plain;
+    const auto views = table.views().bilinear(fromAbove ? Vec3(0, 0, 1) : localView(f));
     for (std::size_t i = 0; i < 4; ++i) {
       out.view[i] = std::uint16_t(views[i].index);
       out.viewWeight[int(i)] = views[i].weight;
     }
-    if (!(surface_.filter && filter(f, out, tile)) && !look(f, out)) return;
+    if (!out.plain && !(surface_.filter && filter(f, out, tile)) && !look(f, out)) return;
     for (std::size_t i = 0; i < 3; ++i) {
       out.corner[i] = surface_.shading.corner[3 * std::size_t(f.triangle) + i];
       std::atomic_ref(used_[out.corner[i]]).store(1, std::memory_order_relaxed);
@@ -159,7 +163,6 @@ class Maker {
 
   /// Towards the viewer, in the patch's frame there.
   Vec3 localView(const Fragment& f) const {
-    if (!options_.viewDependent) return {0, 0, 1};
     const UVec3& t = mesh_.triangles[f.triangle];
     const auto at = [&](const std::vector<Vec3>& v) {
       return interpolated(v[t.x], v[t.y], v[t.z], f.barycentric);

@@ -8,6 +8,7 @@
 #include "libprt/shade/live_pixels.h"
 #include "libprt/shade/patch_cover.h"
 #include "libprt/shade/patch_filter.h"
+#include "libprt/shade/plain_objects.h"
 #include "libprt/shade/response_table.h"
 #include "libprt/shade/shading_frames.h"
 #include "libprt/transport/scene.h"
@@ -28,21 +29,25 @@ struct BiscaleSurface {
   ShadingFrames shading;
   /// Not null: pictures are filtered in space, see patch_filter.h. Of this cover and these responses.
   std::shared_ptr<const PatchFilter> filter = {};
+  /// Not null: some objects show their material in place of the patch. Of this scene, of as many bands as
+  /// the responses.
+  std::shared_ptr<const PlainObjects> plain = {};
 
   BiscaleSurface(std::shared_ptr<const Scene> scene, std::shared_ptr<const TangentFrames> frames,
                  std::shared_ptr<const PatchCover> cover, std::shared_ptr<const ResponseTable> responses);
 };
 
-/// One part of a pixel that shows the patch.
+/// One part of a pixel that shows the surface.
 struct BiscaleFragment {
   std::uint32_t pixel = 0;                ///< row * width + column
   float share = 0;                        ///< of the pixel
   std::array<std::uint32_t, 3> corner{};  ///< in BiscaleView::frames
   Vec3 weight{0};                         ///< and their weights
-  std::uint32_t texel = 0;                ///< of the patch; filtered: place in BiscaleTile::responses
-  bool filtered = false;                  ///< its response is one of the tile's, views interpolated
-  std::array<std::uint16_t, 4> view{};    ///< cells of the view square
-  Vec4 viewWeight{0};                     ///< add up to 1
+  std::uint32_t texel = 0;  ///< of the patch, or of PlainObjects; filtered: place in BiscaleTile::responses
+  bool filtered = false;    ///< its response is one of the tile's, views interpolated
+  bool plain = false;       ///< shows its material: texel and views are of PlainObjects
+  std::array<std::uint16_t, 4> view{};  ///< cells of the view square
+  Vec4 viewWeight{0};                   ///< add up to 1
 };
 
 struct BiscaleTile : PixelTile {
@@ -59,10 +64,11 @@ struct BiscaleView {
 
 struct BiscaleViewOptions {
   int grid = 1;               ///< grid x grid samples a pixel
-  bool viewDependent = true;  ///< false: the patch looks from everywhere as it does from above
+  bool viewDependent = true;  ///< false: the patch, not the rest, looks from everywhere as from above
 };
 
-/// Surfaces seen from behind, and places that the id map leaves empty, are black. Throws Cancelled.
+/// Surfaces seen from behind (two-sided ones too), and places that the id map leaves empty, are black. Throws
+/// Cancelled.
 BiscaleView makeBiscaleView(const BiscaleSurface& surface, const Camera& camera, int width, int height,
                             const BiscaleViewOptions& options, Job& job);
 

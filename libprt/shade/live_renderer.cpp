@@ -21,10 +21,10 @@ void addFragments(const LiveTile& tile, int around, const LiveLight& light, cons
   }
 }
 
-void addFragments(const BiscaleTile& tile, const BiscaleLight& light, const ResponseTable& responses,
+void addFragments(const BiscaleTile& tile, const BiscaleLight& light, const BiscaleSurface& surface,
                   const DisplayTable& display, LiveSums& sums) {
   for (const BiscaleFragment& f : tile.fragments)
-    sums.add(f.pixel, f.share, shadeBiscale(tile, f, light, responses), display);
+    sums.add(f.pixel, f.share, shadeBiscale(tile, f, light, surface), display);
 }
 
 /// A view of nothing but background.
@@ -112,7 +112,7 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
   };
   if (patch)
     drawTiles(patchView_.tiles, [&](const BiscaleTile& tile, LiveSums& sums) {
-      addFragments(tile, patchLight_, *scene.patch->responses, *display_, sums);
+      addFragments(tile, patchLight_, *scene.patch, *display_, sums);
     });
   else
     drawTiles(view_.tiles, [&](const LiveTile& tile, LiveSums& sums) {

@@ -41,7 +41,7 @@ struct LiveScene {
   // Further light that is seen behind the model. With none of the three there is `behind`.
   std::vector<CircleLight> circles = {};
   Rgb constant{0};
-  /// Not null: the scene carries a patch, shown by biscale.h; materials have no part in it.
+  /// Not null: the scene carries a patch, shown by biscale.h; `materials` have no part in it.
   std::shared_ptr<const BiscaleSurface> patch = {};
   bool viewDependent = true;  ///< false: the patch looks from everywhere as it does from above
 };

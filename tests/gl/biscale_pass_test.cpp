@@ -134,6 +134,63 @@ TEST_F(BiscalePassTest, OnAGroundAndInOneView) {
   expectAgreement(caseOf("rock on a ground", ground, matrices(ground.samples.size(), 1)));
 }
 
+TEST_F(BiscalePassTest, ObjectsWithoutThePatchShowTheirMaterial) {
+  for (const int channels : {1, 3})
+    for (const bool glossy : {false, true}) {
+      Scene scene = rockOnGround();
+      scene.materials[1].albedo = Rgb(0.7f, 0.4f, 0.2f);
+      if (glossy)
+        scene.materials[1].model = MaterialModel::Phong, scene.materials[1].specular = Rgb(0.2f, 0.3f, 0.1f);
+      const Rtt rtt = variedRtt(5, 2, channels);
+      PatchedWorld world(std::move(scene), rtt);
+      world.cover = test::coverBy(*world.scene, 128, test::byPlace);
+      world.carry({true, false});
+      Case c = caseOf(glossy ? "a glossy ground without the patch" : "a matte ground without the patch",
+                      world, matrices(world.samples.size(), 1));
+      expectAgreement(c);
+      c.viewDependent = false;
+      expectAgreement(c);
+      c.viewDependent = true;
+      auto surface = std::make_shared<BiscaleSurface>(*c.surface);
+      Job job;
+      surface->filter = std::make_shared<PatchFilter>(surface->cover, rtt, job);
+      c.surface = surface;
+      c.what = "a ground without the patch, filtered";
+      c.width = 80, c.height = 60;
+      expectAgreement(c);
+    }
+}
+
+// The next surface of the same scene: only the materials beside the patch are another.
+TEST_F(BiscalePassTest, FollowsTheMaterialsBesideThePatch) {
+  PatchedWorld world(rockOnGround(), variedRtt(5, 1, 1));
+  SceneRenderer renderer;
+  Job job;
+  renderer.setScene(*world.scene);
+  auto surface = std::make_shared<BiscaleSurface>(world.surface());
+  const Transfer transfer = matrices(world.samples.size(), 1);
+  Picture picture{.camera = camera(), .width = 40, .height = 30, .samples = 1};
+  picture.camera.eye = {1.2f, 2.4f, 6.0f};  // with ground before the rock
+  const auto ground = [&](const std::shared_ptr<const PlainObjects>& plain) {
+    surface = std::make_shared<BiscaleSurface>(*surface);
+    surface->plain = plain;
+    renderer.setPatch(surface);
+    renderer.setPatchLight(world.samples, transfer, variedLight(), job);
+    return renderer.render(picture).rgb(20, 27);
+  };
+  std::vector<Material> materials = world.scene->materials;
+  const auto plainOf = [&](Rgb albedo) {
+    materials[1].albedo = albedo;
+    return std::make_shared<PlainObjects>(*world.scene, std::vector<bool>{true, false}, materials,
+                                          world.rtt.bands);
+  };
+  const Rgb patched = ground(nullptr), bright = ground(plainOf(Rgb(0.8f))), dark = ground(plainOf(Rgb(0.2f)));
+  EXPECT_GT(dark.x, 0.01f);
+  EXPECT_GT(distance(patched, bright), 0.01f);
+  EXPECT_NEAR(bright.x / dark.x, 4, 0.02);
+  EXPECT_EQ(ground(nullptr), patched);
+}
+
 TEST_F(BiscalePassTest, FilteredInSpace) {
   const Rtt rtt = test::contrastedRtt();
   PatchedWorld rock(test::sceneOf(test::rock(20)), rtt);

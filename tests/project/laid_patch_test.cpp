@@ -4,6 +4,7 @@
 #include "libprt/project/lights.h"
 #include "libprt/project/products.h"
 #include "libprt/project/relight.h"
+#include "libprt/project/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,48 @@ TEST(LaidPatch, PicturesShowItAndWithoutItSayWhatToDo) {
     EXPECT_GT(brightness(patched), 0.3 * brightness(plain));
     EXPECT_NE(patched.data, plain.data);
   }
+}
+
+TEST(LaidPatch, LeavesTheGroundOfABuiltInSceneItsMaterial) {
+  Recipe recipe = smallPatch(PatchMapping::Synthesis);
+  const Recipe scene = builtinScene("default");
+  recipe.objects = scene.objects;
+  ASSERT_EQ(recipe.objects[1].name, "ground");
+  EXPECT_TRUE(recipe.objects[0].patch);
+  EXPECT_FALSE(recipe.objects[1].patch);
+  for (ObjectRecipe& object : recipe.objects) object.mesh.detail = 0.25f;
+  const Products products = bake(recipe);
+  BakedScene baked = bakedScene(products);
+  LightRig lights;
+  lights.constant = Rgb(1);
+  Camera camera;
+  camera.eye = {0, 1, 2}, camera.target = {0, 0, 1.6f};  // the ground in front of the vase
+  Job job;
+  const auto middle = [&] { return relight(baked, recipe, lights, camera, {8, 6}, job).rgb(4, 3); };
+  const auto laid = laidPatch(products, recipe);
+  ASSERT_TRUE(laid && laid->plain);
+  baked.patch = laid;
+  const Rgb shown = middle();
+  recipe.method.filter = true;  // charts of the id map that are empty
+  baked.patch = laidPatch(products, recipe);
+  ASSERT_TRUE(baked.patch->filter);
+  EXPECT_EQ(middle(), shown);
+  recipe.method.name = "auto";
+  const Rgb plain = middle();
+  EXPECT_GT(plain.x, 0.2f);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], plain[c], 4e-3f);
+
+  // Its material changes without a bake, and nothing else of the patch is made anew.
+  recipe.objects[1].material.albedo = Rgb(0.1f, 0.2f, 0.3f);
+  recipe.method.name = "biscale";
+  baked.patch = withPlainObjects(laid, recipe);
+  EXPECT_EQ(baked.patch->responses, laid->responses);
+  EXPECT_NEAR(middle().z / shown.z, 0.3f / scene.objects[1].material.albedo.z, 5e-3f);
+  recipe.objects[1].patch = true;
+  EXPECT_FALSE(withPlainObjects(laid, recipe)->plain);
+  recipe.objects.pop_back();
+  EXPECT_FALSE(withPlainObjects(laid, recipe)) << "another scene's";
+  EXPECT_FALSE(laidPatch(products, recipe));
 }
 
 TEST(LaidPatch, IsNotThereBeforeItsPartsAre) {

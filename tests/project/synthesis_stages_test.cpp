@@ -57,6 +57,53 @@ TEST(SynthesisStages, LayThePatchOverTheSurface) {
   EXPECT_GT(double(filled), 0.4 * 96 * 96);
 }
 
+Recipe vaseOnGround() {
+  Recipe recipe = small();
+  ObjectRecipe& ground = recipe.objects.emplace_back();
+  ground.name = "ground", ground.mesh.path = "builtin:ground", ground.mesh.detail = 0.2f;
+  ground.patch = false;
+  return recipe;
+}
+
+TEST(SynthesisStages, LeaveOutWhatCarriesNoPatch) {
+  const Products products = bake(vaseOnGround());
+  const Scene& scene = *products.get<SceneProduct>("scene")->scene;
+  const auto synthesis = products.get<SynthesisProduct>("synthesis");
+  ASSERT_TRUE(synthesis && synthesis->meso);
+  const MesoMesh& meso = *synthesis->meso;
+  EXPECT_NEAR(double(meso.vertexCount()), 4000, 300) << "all serve the vase";
+  for (std::size_t v = 0; v < meso.vertexCount(); ++v) {
+    ASSERT_EQ(scene.triangleObject[meso.triangle[v]], 0u);
+    const UVec3& t = scene.mesh.triangles[meso.triangle[v]];
+    const Vec2& w = meso.barycentric[v];
+    const Vec3 p = (1 - w.x - w.y) * scene.mesh.positions[t.x] + w.x * scene.mesh.positions[t.y] +
+                   w.y * scene.mesh.positions[t.z];
+    ASSERT_LT(distance(p, meso.positions[v]), 1e-5f) << "triangles are numbered as in the scene";
+  }
+  EXPECT_NEAR(synthesis->patchWidth, 0.2 * double(scene.mesh.bounds().diagonal()), 1e-6);
+  const IdMap& map = *products.get<IdMapProduct>("idmap")->map;
+  Job job;
+  const GeometryImage image =
+      makeGeometryImage(*products.get<AtlasProduct>("atlas")->atlas, map.size, -1, job);
+  int texels[2] = {};
+  for (std::size_t i = 0; i < image.triangle.size(); ++i) {
+    if (image.kind[i] == TexelKind::Empty) continue;
+    const std::uint32_t object = scene.triangleObject[image.triangle[i]];
+    ASSERT_EQ(map.empty(i), object == 1);
+    ++texels[object];
+  }
+  EXPECT_GT(texels[0], 200);
+  EXPECT_GT(texels[1], 200);
+}
+
+TEST(SynthesisStages, LayNothingWhereNothingCarries) {
+  Recipe recipe = vaseOnGround();
+  recipe.objects[0].patch = false;
+  const Products products = bake(recipe);
+  EXPECT_FALSE(products.get<SynthesisProduct>("synthesis")->meso);
+  EXPECT_FALSE(products.get<IdMapProduct>("idmap")->map);
+}
+
 TEST(SynthesisStages, FramesAreThoseOfTheField) {
   const Products products = bake(small());
   const auto field = products.get<FieldProduct>("field");
@@ -123,6 +170,7 @@ TEST(SynthesisStages, KeysFollowWhatIsRead) {
   EXPECT_EQ(changed("synthesis.repeat=3"), "");  // by coordinates only
   EXPECT_EQ(changed("field.width=0.1"), "");     // without strokes
   EXPECT_EQ(changed("atlas.gutter=2"), "atlas idmap ");
+  EXPECT_EQ(changed("objects[0].patch=false"), "idmap synthesis ");
 }
 
 TEST(SynthesisStages, SurviveTheProjectFile) {

@@ -63,6 +63,7 @@ struct PatchedWorld {
   std::shared_ptr<const PatchCover> cover;
   Rtt rtt;
   SampleSet samples;
+  std::shared_ptr<const PlainObjects> plain = {};
 
   PatchedWorld(Scene made, Rtt table, bool turnSome = false)
       : scene(std::make_shared<Scene>(std::move(made))), rtt(std::move(table)) {
@@ -92,7 +93,15 @@ struct PatchedWorld {
     samples = samplesAtVertices(*scene);
   }
 
-  BiscaleSurface surface() const { return {scene, frames, cover, std::make_shared<ResponseTable>(rtt)}; }
+  BiscaleSurface surface() const {
+    BiscaleSurface made{scene, frames, cover, std::make_shared<ResponseTable>(rtt)};
+    made.plain = plain;
+    return made;
+  }
+  /// With the objects that carry the patch; the others show the scene's materials.
+  void carry(const std::vector<bool>& carries) {
+    plain = std::make_shared<PlainObjects>(*scene, carries, scene->materials, rtt.bands);
+  }
   Image picture(const Transfer& transfer, const ShRgb& light, const Camera& camera, int width, int height,
                 bool viewDependent = true) const {
     Job job;

@@ -75,6 +75,7 @@ TEST(SceneEdits, TheGroundLiesUnderTheSceneAndIsWideEnough) {
   const Recipe recipe = withGround(smallScene(), scene);
   ASSERT_EQ(groundObject(recipe), 1);
   EXPECT_EQ(groundHeight(recipe), 0.5f);
+  EXPECT_FALSE(recipe.objects[1].patch);
   const Box3 ground = boundsOf(makeBuiltinMesh("ground"), recipe.objects[1].transform.matrix());
   EXPECT_NEAR(ground.center().x, 1, 1e-4);
   EXPECT_NEAR(ground.center().z, 2, 1e-4);

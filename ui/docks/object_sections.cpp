@@ -44,6 +44,7 @@ void ObjectSections::rebuild() {
   const QString base = QStringLiteral("objects[%1].").arg(session_.selectedObject());
   column->addWidget(makeTransform(base + QStringLiteral("transform.")));
   column->addWidget(makeMesh(base + QStringLiteral("mesh.")));
+  column->addWidget(makePatch(base));
   layout()->addWidget(rows_);
   refresh();
 }
@@ -98,6 +99,14 @@ QWidget* ObjectSections::makeMesh(const QString& base) {
   }
   section->setOpen(meshOpen_);
   connect(section, &Section::toggled, this, [this](bool open) { meshOpen_ = open; });
+  return section;
+}
+
+QWidget* ObjectSections::makePatch(const QString& base) {
+  auto* section = new Section(tr("Patch"));
+  section->add(new PropertyRow(session_.document(), base + QStringLiteral("patch"), tr("Carries it")));
+  section->setOpen(patchOpen_);
+  connect(section, &Section::toggled, this, [this](bool open) { patchOpen_ = open; });
   return section;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What one object of the scene is: where it stands, and how its mesh is read.
+// What one object of the scene is: where it stands, how its mesh is read, and whether it carries the patch.
 
 #include "ui/widgets/section.h"
 
@@ -20,14 +20,15 @@ class ObjectSections : public QWidget {
   void refresh();
   QWidget* makeTransform(const QString& base);
   QWidget* makeMesh(const QString& base);
+  QWidget* makePatch(const QString& base);
 
   Session& session_;
   QWidget* rows_ = nullptr;
   NumberField* size_ = nullptr;
   QPushButton* rest_ = nullptr;
   QPushButton* centre_ = nullptr;
-  bool builtin_ = false;                           // the rows are those of a built-in mesh
-  bool transformOpen_ = false, meshOpen_ = false;  // as the user left them
+  bool builtin_ = false;  // the rows are those of a built-in mesh
+  bool transformOpen_ = false, meshOpen_ = false, patchOpen_ = false;  // as the user left them
 };
 
 }  // namespace prt::ui

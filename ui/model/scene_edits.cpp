@@ -115,6 +115,7 @@ float groundHeight(const Recipe& recipe) {
 Recipe withGround(Recipe recipe, const Box3& scene) {
   recipe = withObject(std::move(recipe), kGround);
   ObjectRecipe& ground = recipe.objects.back();
+  ground.patch = false;  // it carries what stands on it
   ground.material.name = "ground";
   ground.material.albedo = Rgb(0.6f);
   if (scene.empty()) return recipe;

@@ -12,7 +12,7 @@ SurfacePatch::SurfacePatch(Document& document, BakeController& bakes, Relighter&
                            QObject* parent)
     : QObject(parent), document_(document), bakes_(bakes), relighter_(relighter), jobs_(jobs) {
   connect(&bakes_, &BakeController::productArrived, this, &SurfacePatch::take);
-  connect(&document_, &Document::recipeChanged, this, &SurfacePatch::followFilter);
+  connect(&document_, &Document::recipeChanged, this, &SurfacePatch::followRecipe);
 }
 
 void SurfacePatch::take(const QString& stage, const ProductState& state) {
@@ -21,23 +21,38 @@ void SurfacePatch::take(const QString& stage, const ProductState& state) {
   if (read && state.level >= state.levels) makeAnew();
 }
 
-void SurfacePatch::followFilter() {
-  if (document_.recipe().method.filter != filter_) makeAnew();
+void SurfacePatch::followRecipe() {
+  const Recipe& recipe = document_.recipe();
+  if (recipe.method.filter != filter_) return makeAnew();
+  std::vector<std::optional<Material>> plain = plainMaterials(recipe);
+  if (plain == plain_) return;
+  // A patch that is being put together is begun anew: it may be one of newer products.
+  if (makingAnew_ || !whole_) return makeAnew();
+  plain_ = std::move(plain);
+  start([whole = whole_, recipe = resolved(recipe)](Job&) { return withPlainObjects(whole, recipe); });
 }
 
 void SurfacePatch::makeAnew() {
-  filter_ = document_.recipe().method.filter;
+  const Recipe recipe = resolved(document_.recipe());
+  filter_ = recipe.method.filter;
+  plain_ = plainMaterials(document_.recipe());
   Products products;
   products.states = bakes_.finalProducts();
+  start([products, recipe](Job& job) { return laidPatch(products, recipe, job); });
+  makingAnew_ = true;
+}
+
+void SurfacePatch::start(std::function<std::shared_ptr<const BiscaleSurface>(Job&)> make) {
   const quint64 number = ++made_;
   auto made = std::make_shared<std::shared_ptr<const BiscaleSurface>>();
   jobs_.startQuietly(
       QStringLiteral("surface patch"), tr("Patch on the surface"),
-      [products, made, recipe = resolved(document_.recipe())](Job& job) {
-        *made = laidPatch(products, recipe, job);
-      },
+      [make = std::move(make), made](Job& job) { *made = make(job); },
       [self = QPointer(this), made, number](const JobInfo&) {
-        if (self && number == self->made_) self->relighter_.setPatch(*made);
+        if (!self || number != self->made_) return;
+        self->makingAnew_ = false;
+        self->whole_ = *made;
+        self->relighter_.setPatch(*made);
       });
 }
 

@@ -1,12 +1,18 @@
 #pragma once
 // Keeps the picture's patch in step with the products: when one that the patch on the surface is made of
-// arrives, it is put together anew, in the background, and handed to the relighter.
+// arrives, it is put together anew, in the background, and handed to the relighter. Objects that carry none
+// follow their materials at once.
 
 #include "ui/model/bake_controller.h"
 #include "ui/model/document.h"
 #include "ui/model/relighter.h"
 
 #include <QObject>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace prt::ui {
 
@@ -18,15 +24,20 @@ class SurfacePatch : public QObject {
 
  private:
   void take(const QString& stage, const ProductState& state);
-  void followFilter();
+  void followRecipe();
   void makeAnew();
+  /// Runs `make`, which keeps what it made, in the background.
+  void start(std::function<std::shared_ptr<const BiscaleSurface>(Job&)> make);
 
   Document& document_;
   BakeController& bakes_;
   Relighter& relighter_;
   JobRunner& jobs_;
-  bool filter_ = false;  // of the newest
-  quint64 made_ = 0;     // number of the newest: results of older ones are dropped
+  bool filter_ = false;  // of the newest, like the next
+  std::vector<std::optional<Material>> plain_;
+  std::shared_ptr<const BiscaleSurface> whole_;  // the last one made
+  bool makingAnew_ = false;
+  quint64 made_ = 0;  // number of the newest: results of older ones are dropped
 };
 
 }  // namespace prt::ui
