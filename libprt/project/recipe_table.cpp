@@ -945,7 +945,7 @@ const std::vector<Row<SynthesisRecipe>> kSynthesis{
      10,
      {},
      kCostSynthesis,
-     "Width of a patch relative to the diagonal of the bounding box."},
+     "Width of a patch relative to the diagonal of the bounding box of what carries it."},
     {"jitter",
      [](SynthesisRecipe& x) -> FieldRef { return &x.jitter; },
      ParameterType::Number,

@@ -96,6 +96,7 @@ std::vector<Stage> makeStages() {
       {.name = "frames",
        .makes = "a tangent frame at each corner of each triangle",
        .inputs = {"scene", "field"},
+       .wanted = showsPatch,
        .stored = false,
        .make = makeFrames},
       {.name = "rays",

@@ -152,7 +152,7 @@ ProductPtr makeSynthesisStage(StageRun& run) {
   if (mesh.triangles.empty()) return std::make_shared<SynthesisProduct>();
   const Surface surface(mesh, job);
   const SurfaceSheets sheets(surface);
-  const double width = double(recipe.scale) * double(scene->mesh.bounds().diagonal());
+  const double width = double(recipe.scale) * double(mesh.bounds().diagonal());
   const auto meso = std::make_shared<const MesoMesh>(makeMesoMesh(
       mesh, sheets, {.vertices = mesoVerticesOf(recipe, surface, width, rtt->texels), .seed = recipe.seed},
       job));

@@ -20,7 +20,8 @@ bool covers(const std::string& section, const std::string& path) {
 }
 
 // What the studio shows. What these are made from follows by itself.
-const std::vector<std::string> kWanted{"mesh", "scene", "samples", "transfer", "patch", "rtt", "idmap"};
+const std::vector<std::string> kWanted{"mesh",  "scene", "samples", "transfer",
+                                       "patch", "rtt",   "idmap",   "frames"};
 
 const Stage& stageNamed(const std::string& name) {
   return *std::find_if(stages().begin(), stages().end(),
