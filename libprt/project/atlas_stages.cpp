@@ -112,7 +112,29 @@ AutoCutOptions autoCutOptionsOf(const ChartsRecipe& charts) {
   return options;
 }
 
-AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
+namespace {
+
+/// Where a patch is grown its id map wants the texels: what carries none gets a tenth of them at most.
+void makeRoomForPatch(const Recipe& recipe, const Scene& scene, const FlatCharts& charts,
+                      std::vector<double>& weights) {
+  constexpr double kShare = 0.1, kLeast = 1e-3;
+  if (recipe.patch.model == PatchModel::None) return;
+  const auto& all = charts.charts.charts;
+  weights.resize(all.size(), 1.0);
+  const auto plain = [&](std::size_t c) {
+    return !recipe.objects[scene.triangleObject[all[c].faces.front()]].patch;
+  };
+  double area[2] = {};
+  for (std::size_t c = 0; c < all.size(); ++c) area[plain(c)] += weights[c] * all[c].area;
+  if (area[0] <= 0 || area[1] <= 0) return;
+  const double less = std::clamp(kShare * area[0] / area[1], kLeast, 1.0);
+  for (std::size_t c = 0; c < all.size(); ++c)
+    if (plain(c)) weights[c] *= less;
+}
+
+}  // namespace
+
+AtlasOptions packingOf(const Recipe& recipe, const Scene& scene, const FlatCharts& charts,
                        std::span<const ChartSettings> settings) {
   AtlasOptions options{{recipe.atlas.size, recipe.atlas.gutter, recipe.atlas.turns}, {}, {}};
   options.locked = parsePlacements(recipe.atlas.placements, charts.charts.charts.size());
@@ -122,6 +144,7 @@ AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
     options.locked.resize(settings.size());
     options.locked[c] = *settings[c].place;
   }
+  makeRoomForPatch(recipe, scene, charts, options.weights);
   return options;
 }
 
@@ -136,7 +159,7 @@ ProductPtr makeAtlasStage(StageRun& run) {
     product->atlas = std::make_shared<Atlas>(imported(mesh, pack, run.job()));
   } else {
     const AtlasOptions options =
-        packingOf(recipe, *charts, settingsOfCharts(charts->charts, chartSettingsOf(recipe, scene)));
+        packingOf(recipe, scene, *charts, settingsOfCharts(charts->charts, chartSettingsOf(recipe, scene)));
     product->atlas = std::make_shared<Atlas>(packAtlas(*charts, options, run.job()));
     if (!options.locked.empty()) checkPlaces(*charts, *product->atlas);
   }

@@ -48,7 +48,7 @@ AutoCutOptions autoCutOptionsOf(const ChartsRecipe& charts);
 AtlasFacts atlasFacts(const TriMesh& mesh, const Surface& surface, const Atlas& atlas, Job& job);
 /// How the recipe wants charts packed; `settings` are settingsOfCharts(). Places of single charts win over
 /// those of atlas.placements.
-AtlasOptions packingOf(const Recipe& recipe, const FlatCharts& charts,
+AtlasOptions packingOf(const Recipe& recipe, const Scene& scene, const FlatCharts& charts,
                        std::span<const ChartSettings> settings);
 
 /// One line that names the chart which stretches most when charts that were cut by themselves miss

@@ -35,6 +35,11 @@ bool grownPatch(const Recipe& recipe) {
   return showsPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Synthesis;
 }
 
+/// Charts of objects that carry no patch are packed smaller where there is one.
+std::string roomForPatchText(const Recipe& recipe) {
+  return recipe.patch.model != PatchModel::None ? plainObjectsText(recipe) : std::string();
+}
+
 bool bakesAtTexels(const Recipe& recipe) {
   return recipe.transfer.where == TransferWhere::Texel;
 }
@@ -73,6 +78,7 @@ std::vector<Stage> makeStages() {
        .makes = "all charts side by side in one square",
        .inputs = {"scene", "charts"},
        .reads = {"objects[].charts", "atlas"},
+       .derives = roomForPatchText,
        .wanted = grownPatch,
        .previews = false,
        .make = makeAtlasStage,

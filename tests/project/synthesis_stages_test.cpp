@@ -96,7 +96,7 @@ TEST(SynthesisStages, LeaveOutWhatCarriesNoPatch) {
     ++texels[object];
   }
   EXPECT_GT(texels[0], 200);
-  EXPECT_GT(texels[1], 200);
+  EXPECT_LT(texels[1], 0.5 * texels[0]) << "the atlas is for what carries the patch";
 }
 
 TEST(SynthesisStages, LayNothingWhereNothingCarries) {
@@ -173,7 +173,7 @@ TEST(SynthesisStages, KeysFollowWhatIsRead) {
   EXPECT_EQ(changed("synthesis.repeat=3"), "");  // by coordinates only
   EXPECT_EQ(changed("field.width=0.1"), "");     // without strokes
   EXPECT_EQ(changed("atlas.gutter=2"), "atlas idmap ");
-  EXPECT_EQ(changed("objects[0].patch=false"), "idmap synthesis ");
+  EXPECT_EQ(changed("objects[0].patch=false"), "atlas idmap synthesis ");
 }
 
 TEST(SynthesisStages, SurviveTheProjectFile) {

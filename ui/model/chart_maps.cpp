@@ -191,8 +191,8 @@ class Layer {
       flat.uv.push_back(map->uv);
       flat.stretch.push_back(map->stretch);
     }
-    auto atlas =
-        std::make_shared<Atlas>(packAtlas(flat, packingOf(work_.recipe, flat, work_.settings), job_));
+    auto atlas = std::make_shared<Atlas>(
+        packAtlas(flat, packingOf(work_.recipe, *work_.on->scene, flat, work_.settings), job_));
     PackedCharts packed{atlas->placements, atlas, {}};
     packed.facts = atlasFacts(work_.on->scene->mesh, work_.on->surface, *atlas, job_);
     return packed;
