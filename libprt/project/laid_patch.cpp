@@ -43,6 +43,12 @@ std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe) {
   return {"scene", "frames", "rtt", "atlas", "idmap"};
 }
 
+std::vector<std::string> stagesOfPicture(const Recipe& recipe) {
+  std::vector<std::string> stages = stagesOfLaidPatch(recipe);
+  stages.insert(stages.end(), {"scene", "samples", "transfer"});
+  return stages;
+}
+
 std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const Recipe& recipe) {
   Job job;
   return laidPatch(products, recipe, job);

@@ -14,6 +14,9 @@ namespace prt {
 /// The stages that laidPatch() reads for this recipe; empty when it lays no patch.
 std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe);
 
+/// Those and the ones that bakedScene() reads: all that a picture of this recipe needs.
+std::vector<std::string> stagesOfPicture(const Recipe& recipe);
+
 /// Null when the recipe lays no patch, a product is missing or only a preview of a coarser mesh, or the scene
 /// has not as many objects as the recipe. Objects with patch=false show their material as the recipe has it.
 /// With method.filter its filter is made, which takes part of a second; Cancelled.

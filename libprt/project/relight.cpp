@@ -19,9 +19,7 @@ BakedScene bakedScene(const Products& products) {
 }
 
 BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project) {
-  std::vector<std::string> stages = stagesOfLaidPatch(recipe);
-  stages.insert(stages.end(), {"scene", "samples", "transfer"});
-  const Products products = pipeline.find(recipe, stages);
+  const Products products = pipeline.find(recipe, stagesOfPicture(recipe));
   if (!products.state("transfer"))
     throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
   BakedScene baked = bakedScene(products);

@@ -112,10 +112,8 @@ BenchResult benchBiscale(Job& job, int repetitions) {
   InnerJob inner(job);
   job.begin("bench biscale", 1, "runs");
   const Recipe recipe = biscaleBenchRecipe();
-  std::vector<std::string> stages = stagesOfLaidPatch(recipe);
-  stages.insert(stages.end(), {"samples", "transfer"});
   Pipeline pipeline(nullptr, {});
-  const Products products = pipeline.run(recipe, stages, inner.job);
+  const Products products = pipeline.run(recipe, stagesOfPicture(recipe), inner.job);
   const BiscaleFrame frame = biscaleFrame(recipe, products, repetitions, inner.job);
   job.advance(1);
   BenchResult result;

@@ -58,10 +58,8 @@ Image meanOf(const Image& a, const Image& b) {
 }  // namespace
 
 BiscaleTruth::BiscaleTruth(const TruthCase& of, Job& job) : case_(of) {
-  std::vector<std::string> stages = stagesOfLaidPatch(case_.recipe);
-  stages.insert(stages.end(), {"samples", "transfer"});
   Pipeline pipeline(nullptr, {});
-  products_ = pipeline.run(case_.recipe, stages, job);
+  products_ = pipeline.run(case_.recipe, stagesOfPicture(case_.recipe), job);
   surface_ = laidPatch(products_, case_.recipe);
   displace(job);
   trace(job);

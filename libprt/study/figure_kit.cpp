@@ -62,9 +62,7 @@ double Stopwatch::seconds() const {
 }
 
 void FigureModel::bake(const Recipe& recipe, Job& job) {
-  std::vector<std::string> stages = stagesOfLaidPatch(recipe);
-  stages.insert(stages.end(), {"samples", "transfer"});
-  products_ = pipeline_.run(recipe, stages, job);
+  products_ = pipeline_.run(recipe, stagesOfPicture(recipe), job);
   patch_ = laidPatch(products_, recipe);
 }
 

@@ -3,6 +3,7 @@
 #include "ui/docks/chart_dock.h"
 #include "ui/model/chart_editor.h"
 #include "ui/model/session.h"
+#include "ui/window/menu_action.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -17,47 +18,41 @@ QString tr(const char* text) {
   return QObject::tr(text);
 }
 
-QAction* add(QMenu& menu, const char* name, const QString& text, const QString& tip,
-             std::function<void()> run) {
-  QAction* action = menu.addAction(text, &menu, [run = std::move(run)] { run(); });
-  action->setObjectName(QLatin1String(name));
-  action->setToolTip(tip);
-  action->setStatusTip(tip);
-  return action;
-}
-
 }  // namespace
 
 void fillChartMenu(QMenu& menu, Session& session, ChartDock& dock, const std::function<void()>& show) {
   menu.setToolTipsVisible(true);
   ChartEditor& charts = session.charts();
-  QAction* cut = add(menu, "cutCharts", tr("&Draw cuts"),
-                     tr("The knife: click on the model, each click cuts the shortest way from the last one."),
-                     [&charts, show] {
-                       if (!charts.cutting()) show();
-                       charts.setCutting(!charts.cutting());
-                     });
+  QAction* cut =
+      addMenuAction(menu, "cutCharts", tr("&Draw cuts"),
+                    tr("The knife: click on the model, each click cuts the shortest way from the last one."),
+                    [&charts, show] {
+                      if (!charts.cutting()) show();
+                      charts.setCutting(!charts.cutting());
+                    });
   cut->setCheckable(true);
   cut->setShortcut(QKeySequence(Qt::Key_K));
-  QAction* creases = add(menu, "followCreases", tr("Cuts follow &creases"),
-                         tr("The way between two clicks keeps to edges where the surface bends."),
-                         [&charts] { charts.setFollowCreases(!charts.followCreases()); });
+  QAction* creases = addMenuAction(menu, "followCreases", tr("Cuts follow &creases"),
+                                   tr("The way between two clicks keeps to edges where the surface bends."),
+                                   [&charts] { charts.setFollowCreases(!charts.followCreases()); });
   creases->setCheckable(true);
   QAction* automatic =
-      add(menu, "autoCut", tr("&Auto cut"),
-          tr("Few charts, each a disk, with seams where they are seen least."), [&charts, show] {
-            show();
-            charts.autoCut();
-          });
-  QAction* mend = add(menu, "mendCharts", tr("Cut as &suggested"), tr("Every chart is a disk then."),
-                      [&charts] { charts.applyAllSuggestions(); });
-  QAction* clear = add(menu, "removeCuts", tr("&Remove all cuts"), tr("Takes all cuts of all objects away."),
-                       [&charts] { charts.removeAllCuts(); });
+      addMenuAction(menu, "autoCut", tr("&Auto cut"),
+                    tr("Few charts, each a disk, with seams where they are seen least."), [&charts, show] {
+                      show();
+                      charts.autoCut();
+                    });
+  QAction* mend =
+      addMenuAction(menu, "mendCharts", tr("Cut as &suggested"), tr("Every chart is a disk then."),
+                    [&charts] { charts.applyAllSuggestions(); });
+  QAction* clear =
+      addMenuAction(menu, "removeCuts", tr("&Remove all cuts"), tr("Takes all cuts of all objects away."),
+                    [&charts] { charts.removeAllCuts(); });
   menu.addSeparator();
-  QAction* flatten = add(menu, "flattenCharts", tr("&Lay charts flat anew"),
-                         tr("Every chart from the beginning."), [&charts] { charts.flattenAll(); });
-  QAction* pack = add(menu, "packCharts", tr("&Pack charts"), tr("Everything anew that is not locked."),
-                      [&charts] { charts.packAll(); });
+  QAction* flatten = addMenuAction(menu, "flattenCharts", tr("&Lay charts flat anew"),
+                                   tr("Every chart from the beginning."), [&charts] { charts.flattenAll(); });
+  QAction* pack = addMenuAction(menu, "packCharts", tr("&Pack charts"),
+                                tr("Everything anew that is not locked."), [&charts] { charts.packAll(); });
   menu.addSeparator();
   QMenu* shown = menu.addMenu(tr("Sho&w on the surface"));
   auto* group = new QActionGroup(&menu);
@@ -70,12 +65,12 @@ void fillChartMenu(QMenu& menu, Session& session, ChartDock& dock, const std::fu
     group->addAction(action);
   }
   menu.addSeparator();
-  QAction* import =
-      add(menu, "importCoordinates", tr("&Import UVs"),
-          tr("The meshes' own texture coordinates as the atlas."), [&charts] { charts.useImported(); });
-  QAction* write = add(menu, "exportCoordinates", tr("&Export UVs\u2026"),
-                       tr("The mesh with the atlas as its texture coordinates: OBJ, glTF or GLB."),
-                       [&dock] { dock.exportCoordinates(); });
+  QAction* import = addMenuAction(menu, "importCoordinates", tr("&Import UVs"),
+                                  tr("The meshes' own texture coordinates as the atlas."),
+                                  [&charts] { charts.useImported(); });
+  QAction* write = addMenuAction(menu, "exportCoordinates", tr("&Export UVs\u2026"),
+                                 tr("The mesh with the atlas as its texture coordinates: OBJ, glTF or GLB."),
+                                 [&dock] { dock.exportCoordinates(); });
   const auto follow = [&session, &charts, cut, creases, automatic, mend, clear, flatten, pack, group, import,
                        write] {
     const bool imported = session.document().recipe().charts.mode == ChartsMode::Imported;

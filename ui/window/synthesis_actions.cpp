@@ -3,6 +3,7 @@
 #include "ui/model/field_editor.h"
 #include "ui/model/session.h"
 #include "ui/model/wish_editor.h"
+#include "ui/window/menu_action.h"
 
 #include <QMenu>
 
@@ -12,15 +13,6 @@ namespace {
 
 QString tr(const char* text) {
   return QObject::tr(text);
-}
-
-QAction* add(QMenu& menu, const char* name, const QString& text, const QString& tip,
-             std::function<void()> run) {
-  QAction* action = menu.addAction(text, &menu, [run = std::move(run)] { run(); });
-  action->setObjectName(QLatin1String(name));
-  action->setToolTip(tip);
-  action->setStatusTip(tip);
-  return action;
 }
 
 }  // namespace
@@ -38,31 +30,31 @@ void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()
     };
   };
   QAction* strokes =
-      add(menu, "paintStrokes", tr("&Draw strokes"),
-          tr("Drag on the model: the patch is laid along what is drawn."), toggle(Brush::Strokes));
+      addMenuAction(menu, "paintStrokes", tr("&Draw strokes"),
+                    tr("Drag on the model: the patch is laid along what is drawn."), toggle(Brush::Strokes));
   strokes->setCheckable(true);
   strokes->setShortcut(QKeySequence(Qt::Key_D));
-  QAction* erase = add(menu, "eraseStroke", tr("&Erase stroke"), tr("The one that is selected."),
-                       [&field] { field.erase(field.selected()); });
-  QAction* all = add(menu, "eraseStrokes", tr("Erase &all strokes"),
-                     tr("The field is as smooth as it can be."), [&field] { field.eraseAll(); });
-  QAction* shown = add(menu, "showField", tr("Show the &field"),
-                       tr("Lines along the orientation field, and dots where it winds."),
-                       [&field] { field.setShown(!field.shown()); });
+  QAction* erase = addMenuAction(menu, "eraseStroke", tr("&Erase stroke"), tr("The one that is selected."),
+                                 [&field] { field.erase(field.selected()); });
+  QAction* all = addMenuAction(menu, "eraseStrokes", tr("Erase &all strokes"),
+                               tr("The field is as smooth as it can be."), [&field] { field.eraseAll(); });
+  QAction* shown = addMenuAction(menu, "showField", tr("Show the &field"),
+                                 tr("Lines along the orientation field, and dots where it winds."),
+                                 [&field] { field.setShown(!field.shown()); });
   shown->setCheckable(true);
   menu.addSeparator();
-  QAction* parts =
-      add(menu, "paintParts", tr("Paint &parts"),
-          tr("Drag on the model: what is painted takes the part of the patch that was picked in the "
-             "Synthesis dock."),
-          toggle(Brush::Wishes));
+  QAction* parts = addMenuAction(
+      menu, "paintParts", tr("Paint &parts"),
+      tr("Drag on the model: what is painted takes the part of the patch that was picked in the "
+         "Synthesis dock."),
+      toggle(Brush::Wishes));
   parts->setCheckable(true);
   parts->setShortcut(QKeySequence(Qt::Key_W));
-  QAction* none = add(menu, "eraseParts", tr("E&rase all wishes"), tr("The patch goes where it fits best."),
-                      [&wishes] { wishes.eraseAll(); });
+  QAction* none = addMenuAction(menu, "eraseParts", tr("E&rase all wishes"),
+                                tr("The patch goes where it fits best."), [&wishes] { wishes.eraseAll(); });
   QAction* partsShown =
-      add(menu, "showParts", tr("Show &wishes"), tr("Where parts of the patch are wished for."),
-          [&wishes] { wishes.setShown(!wishes.shown()); });
+      addMenuAction(menu, "showParts", tr("Show &wishes"), tr("Where parts of the patch are wished for."),
+                    [&wishes] { wishes.setShown(!wishes.shown()); });
   partsShown->setCheckable(true);
   const auto follow = [&session, &field, &wishes, &painting, strokes, erase, all, shown, parts, none,
                        partsShown] {
