@@ -53,6 +53,10 @@ struct ObjectRecipe {
   std::string name = "object";
   bool visible = true;  ///< false: as if the object were not in the list
   bool patch = true;    ///< carries the patch where one is laid; false: shows its material there too
+  /// Stands around the others: it is not baked, but lights them as the middle of them sees it
+  /// (shade/surroundings.h).
+  bool captured = false;
+  Rgb emission{0};  ///< captured: radiance that it sends of its own
   MeshRecipe mesh;
   TransformRecipe transform;
   Material material;
@@ -176,6 +180,14 @@ struct SynthesisRecipe {
   bool operator==(const SynthesisRecipe&) const = default;
 };
 
+/// A further patch that covers the one below it where it is painted (shade/patch_layers.h).
+struct LayerRecipe {
+  std::string name = "layer";
+  PatchOptions patch;
+  std::string spots;  ///< painted: see parseSpots()
+  bool operator==(const LayerRecipe&) const = default;
+};
+
 /// The id map (synthesis/id_map.h).
 struct IdMapRecipe {
   int size = 2048;
@@ -200,6 +212,7 @@ struct Recipe {
   AtlasRecipe atlas;
   TransferRecipe transfer;
   PatchOptions patch;
+  std::vector<LayerRecipe> layers;  ///< over it, the lowest first
   RttRecipe rtt;
   FieldRecipe field;
   SynthesisRecipe synthesis;
