@@ -2,6 +2,7 @@
 // Both scales together, as shade/biscale.h: light at the triangle's corners, each in its own frame, is
 // interpolated and meets the patch's response there, between the views around the viewer's.
 //   FILTER  the response of all that the pixel covers
+//   LAYERS  several patches one over the other, blended by weights
 in vec3 vPosition;
 layout(location = 0) out vec4 colour;
 
@@ -29,6 +30,21 @@ uniform int viewDependent;
 
 const uint kEmpty = 65535u, kPatched = 0xffffffffu;
 
+#ifdef LAYERS
+const int kLayers = 4;
+uniform usampler2D layerWeights;  // beside the id map: of the patches over the first, in 255ths
+
+// What each patch shows of a texel of the id map.
+void layersAt(ivec2 at, out float part[kLayers]) {
+  uvec3 over = texelFetch(layerWeights, at, 0).rgb;
+  part[0] = float(255u - over.r - over.g - over.b) / 255.0;
+  for (int n = 0; n < 3; ++n) part[n + 1] = float(over[n]) / 255.0;
+}
+#else
+const int kLayers = 1;
+#endif
+float layerPart[kLayers];  // of the place
+
 vec3 normalOf(uint v) { return vec3(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]); }
 vec3 tangentOf(uint corner) { return vec3(tangents[3 * corner], tangents[3 * corner + 1], tangents[3 * corner + 2]); }
 
@@ -46,6 +62,9 @@ bool texelHere(vec3 weight, out uint texel) {
     uvec2 id = texelFetch(ids, at, 0).xy;
     if (id.x == kEmpty) return false;
     cell = cellOf(id);
+#ifdef LAYERS
+    layersAt(at, layerPart);
+#endif
   }
   texel = cell.y * uint(side) + cell.x;
   return true;
@@ -125,7 +144,13 @@ void main() {
         }
 #endif
         else
+#ifdef LAYERS
+          for (int n = 0; n < kLayers; ++n)
+            if (layerPart[n] > 0.0)
+              ADD(responses, texel + uint(n * side * side), layerPart[n])
+#else
           ADD(responses, texel, 1.0)
+#endif
       }
       ivec3 at = corner + 2 * (c * groups + k);
       vec4 lightLow = weight.x * texelFetch(light, at.x) + weight.y * texelFetch(light, at.y) + weight.z * texelFetch(light, at.z);

@@ -13,8 +13,8 @@ uniform vec2 scales[16];
 const int kTerms = 16;
 const float kSharper = 0.6;
 
-uint exactTexel[4 * kMostTaps];
-float exactWeight[4 * kMostTaps];
+uint exactTexel[4 * kLayers * kMostTaps];
+float exactWeight[4 * kLayers * kMostTaps];
 int exactCount = 0;
 float coefficient[kTerms];
 bool coarseToo = false;
@@ -26,6 +26,7 @@ vec2 placeOf(vec2 coordinates) {
 }
 
 // Texels of level 0 around a place that belong to the chart; false where there are none.
+vec4 partAround[kLayers];  // what each patch shows of the four
 bool texelsAround(vec2 place, uint chart, out uvec4 texel, out vec4 weight) {
   vec2 p = place - 0.5, low = floor(p), part = p - low;
   weight = vec4((1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y);
@@ -39,6 +40,11 @@ bool texelsAround(vec2 place, uint chart, out uvec4 texel, out vec4 weight) {
       weight[i] = 0.0;
     } else {
       cell = cellOf(texelFetch(ids, at, 0).xy);
+#ifdef LAYERS
+      float part[kLayers];
+      layersAt(at, part);
+      for (int n = 0; n < kLayers; ++n) partAround[n][i] = part[n];
+#endif
     }
     texel[i] = cell.y * uint(side) + cell.x;
   }
@@ -92,6 +98,9 @@ bool filterHere(uvec3 t, vec3 weight) {
   uvec4 here;
   vec4 hereWeight;
   bool known = texelsAround(middle, chart, here, hereWeight);
+#ifdef LAYERS
+  vec4 herePart[kLayers] = partAround;
+#endif
   float coarse = !known && level > 0.0 ? 1.0 : min(level, 1.0), part = 1.0 / float(taps);
   if (coarse == 0.0 && !known) return false;
   for (int k = 0; k < termCount; ++k) coefficient[k] = 0.0;
@@ -101,12 +110,24 @@ bool filterHere(uvec3 t, vec3 weight) {
     if (coarse < 1.0) {
       uvec4 texel;
       vec4 share;
-      if (!texelsAround(place, chart, texel, share)) texel = here, share = hereWeight;
+      if (!texelsAround(place, chart, texel, share)) {
+        texel = here, share = hereWeight;
+#ifdef LAYERS
+        partAround = herePart;
+#endif
+      }
       for (int k = 0; k < 4; ++k)
-        if (share[k] > 0.0) {
-          exactTexel[exactCount] = texel[k];
-          exactWeight[exactCount] = share[k] * part * (1.0 - coarse);
-          ++exactCount;
+        for (int n = 0; n < kLayers; ++n) {
+#ifdef LAYERS
+          float weight = share[k] * partAround[n][k];
+#else
+          float weight = share[k];
+#endif
+          if (weight > 0.0) {
+            exactTexel[exactCount] = texel[k] + uint(n * side * side);
+            exactWeight[exactCount] = weight * part * (1.0 - coarse);
+            ++exactCount;
+          }
         }
     }
     if (coarseToo) addLevels(place, chart, level, part * coarse);

@@ -50,6 +50,11 @@ constexpr SectionTitle kSections[] = {
     {"atlas", "Atlas", "How charts are packed. Made with `--stage atlas`."},
     {"transfer", "Transfer", "What is baked; see [transfer](transfer.md)."},
     {"patch", "Patch", "The fine structure of the surface, one period of it; see [meso scale](meso.md)."},
+    {"layers[]", "Layers",
+     "Further patches, the lowest first: each covers what is below where it is painted, at most three. All "
+     "are "
+     "baked as `rtt` says and laid as one; see [synthesis](synthesis.md)."},
+    {"layers[].patch", "Patch of a layer", "As `patch`."},
     {"rtt", "Radiance transfer texture", "How the patch answers to light; baked when there is a patch."},
     {"field", "Orientation field", "Along what patches are laid; see [synthesis](synthesis.md)."},
     {"synthesis", "Synthesis",

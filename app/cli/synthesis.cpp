@@ -35,7 +35,7 @@ struct Laid {
 };
 
 Laid laidPatch(Pipeline& pipeline, const Recipe& recipe, const std::string& project, Job& job) {
-  Products products = pipeline.find(recipe, {"synthesis", "idmap", "atlas", "rtt"});
+  Products products = pipeline.find(recipe, {"synthesis", "idmap", "atlas", "rtt", "layers"});
   Laid laid{products.get<SynthesisProduct>("synthesis"), products.get<IdMapProduct>("idmap"), {}};
   if (!laid.synthesis || !laid.synthesis->meso)
     throw ValueError("holds no patch laid over the surface", project,
@@ -97,7 +97,7 @@ nlohmann::json describe(Session& session, const Options& options, const Recipe& 
   const SynthesisQuality q = qualityOf(
       s, laid.products.get<SceneProduct>("scene")->scene->mesh,
       laid.products.get<FramesProduct>("frames")->frames, *laid.products.get<RttProduct>("rtt")->rtt,
-      symmetryOf(resolved(recipe).field),
+      laid.products.get<LayersProduct>("layers").get(), resolved(recipe),
       atlas ? std::span<const std::uint32_t>(atlas->atlas->chartOf) : std::span<const std::uint32_t>{},
       session.job());
   json["inside"] = q.inside, json["across"] = q.across;

@@ -17,7 +17,7 @@ namespace {
 constexpr unsigned kPlainBinding = 0, kCornerBinding = 1, kPositionBinding = 2, kNormalBinding = 3,
                    kTangentBinding = 4, kCoordinateBinding = 5, kRectangleBinding = 6, kChartBinding = 7;
 constexpr unsigned kLightUnit = 0, kResponseUnit = 1, kIdUnit = 2, kCoefficientUnit = 3, kTermUnit = 4,
-                   kOwnerUnit = 5, kPlainUnit = 6;
+                   kOwnerUnit = 5, kPlainUnit = 6, kLayerUnit = 7;
 
 Program programWith(const std::string& prelude) {
   Program program = Program::fromLibrary("biscale.vert", "biscale.frag", prelude);
@@ -28,14 +28,23 @@ Program programWith(const std::string& prelude) {
   program.set("terms", int(kTermUnit));
   program.set("owners", int(kOwnerUnit));
   program.set("plainResponses", int(kPlainUnit));
+  program.set("layerWeights", int(kLayerUnit));
   return program;
+}
+
+/// Three channels for every texel of the id map.
+Texture weightsTexture(const IdMap& map) {
+  const auto layers = std::size_t(map.layers);
+  std::vector<std::uint8_t> channels(map.ids.size() / 2 * 4, 0);
+  for (std::size_t i = 0; i < map.ids.size() / 2; ++i)
+    for (std::size_t k = 0; k < layers; ++k) channels[4 * i + k] = map.weights[layers * i + k];
+  return Texture::fromBytes(channels, map.size, map.size);
 }
 
 }  // namespace
 
 BiscalePass::BiscalePass()
-    : program_(programWith({})),
-      array_(VertexArray::create()),
+    : array_(VertexArray::create()),
       light_(BufferTexture::create(BufferTexture::Format::Floats)),
       responses_(BufferTexture::create(BufferTexture::Format::Integers)),
       plainResponses_(BufferTexture::create(BufferTexture::Format::Integers)),
@@ -44,7 +53,16 @@ BiscalePass::BiscalePass()
   for (Buffer* buffer :
        {&positions_, &normals_, &tangents_, &corners_, &coordinates_, &rectangles_, &charts_, &plainTexels_})
     *buffer = Buffer::create();
+  programs_[0] = programWith({});
   checkErrors("start of the bi-scale pass");
+}
+
+Program& BiscalePass::program() {
+  const bool filter = surface_->filter != nullptr, layers = surface_->cover->layers() > 1;
+  Program& program = programs_[std::size_t(filter) + 2 * std::size_t(layers)];
+  if (!program)
+    program = programWith(std::string(filter ? "#define FILTER\n" : "") + (layers ? "#define LAYERS\n" : ""));
+  return program;
 }
 
 void BiscalePass::setSurface(std::shared_ptr<const BiscaleSurface> surface) {
@@ -88,10 +106,10 @@ void BiscalePass::uploadCover(const PatchCover& cover) {
   static constexpr std::array<std::uint16_t, 2> kNone{};
   ids_ = cover.map() ? Texture::fromIntegers(cover.map()->ids, 2, cover.map()->size, cover.map()->size)
                      : Texture::fromIntegers(kNone, 2, 1, 1);
+  if (cover.layers() > 1) layerWeights_ = weightsTexture(*cover.map());
 }
 
 void BiscalePass::uploadFilter(const PatchFilter& filter) {
-  if (!filterProgram_) filterProgram_ = programWith("#define FILTER\n");
   coefficients_.upload(filter.coefficients(), "filtered patch");
   terms_.upload(filter.terms().halfs(), "terms of the patch");
   rectangles_.upload(filter.rectangles());
@@ -99,9 +117,6 @@ void BiscalePass::uploadFilter(const PatchFilter& filter) {
   static constexpr std::array<std::uint16_t, 1> kNone{};
   owners_ = filter.repeats() ? Texture::fromIntegers(kNone, 1, 1, 1)
                              : Texture::fromIntegers(filter.owners(), 1, filter.size(), filter.size());
-  filterProgram_.set("termCount", PatchFilter::kTerms);
-  filterProgram_.set("levels", filter.levels());
-  filterProgram_.set("scales", filter.scales());
 }
 
 void BiscalePass::uploadPlain(const BiscaleSurface& surface) {
@@ -143,6 +158,9 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
     program.set("forward", view.steps.forward);
     program.set("pixelRight", view.steps.right);
     program.set("pixelDown", view.steps.down);
+    program.set("termCount", PatchFilter::kTerms);
+    program.set("levels", surface_->filter->levels());
+    program.set("scales", surface_->filter->scales());
     rectangles_.bindStorage(kRectangleBinding);
     charts_.bindStorage(kChartBinding);
     coefficients_.bind(kCoefficientUnit);
@@ -159,6 +177,7 @@ void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {
   responses_.bind(kResponseUnit);
   plainResponses_.bind(kPlainUnit);
   ids_.bind(kIdUnit);
+  if (surface_->cover->layers() > 1) layerWeights_.bind(kLayerUnit);
   program.use();
   glBindVertexArray(array_.id());
   glDrawElements(GL_TRIANGLES, indexCount_, GL_UNSIGNED_INT, nullptr);

@@ -17,6 +17,7 @@
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/transfer.h"
 
+#include <array>
 #include <memory>
 
 namespace prt::gl {
@@ -43,15 +44,15 @@ class BiscalePass {
   void uploadCover(const PatchCover& cover);
   void uploadFilter(const PatchFilter& filter);
   void uploadPlain(const BiscaleSurface& surface);
-  Program& program() { return surface_->filter ? filterProgram_ : program_; }
+  Program& program();
 
   std::shared_ptr<const BiscaleSurface> surface_;
-  Program program_, filterProgram_;  // the second made for the first filter
+  std::array<Program, 4> programs_;  // filter + 2 * layers; each made when it is wanted first
   VertexArray array_;
   Buffer positions_, normals_, tangents_, corners_, coordinates_;
   BufferTexture light_, responses_, plainResponses_;
   Buffer plainTexels_;
-  Texture ids_;
+  Texture ids_, layerWeights_;
   Buffer rectangles_, charts_;  // of the filter, like those that follow
   BufferTexture coefficients_, terms_;
   Texture owners_;

@@ -162,20 +162,29 @@ Texture Texture::fromImage(const Image& image, Wrap wrap, bool mipmaps) {
   return texture;
 }
 
-Texture Texture::fromIntegers(std::span<const std::uint16_t> values, int components, int width, int height) {
+Texture Texture::integers(const void* values, unsigned format, unsigned components, unsigned type, int width,
+                          int height) {
   GLuint id = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &id);
   Texture texture(id);
   texture.width_ = width;
   texture.height_ = height;
-  const bool pairs = components == 2;
-  glTextureStorage2D(id, 1, pairs ? GL_RG16UI : GL_R16UI, width, height);
+  glTextureStorage2D(id, 1, format, width, height);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 2);
-  glTextureSubImage2D(id, 0, 0, 0, width, height, pairs ? GL_RG_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_SHORT,
-                      values.data());
+  glTextureSubImage2D(id, 0, 0, 0, width, height, components, type, values);
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
+}
+
+Texture Texture::fromIntegers(std::span<const std::uint16_t> values, int components, int width, int height) {
+  const bool pairs = components == 2;
+  return integers(values.data(), pairs ? GL_RG16UI : GL_R16UI, pairs ? GL_RG_INTEGER : GL_RED_INTEGER,
+                  GL_UNSIGNED_SHORT, width, height);
+}
+
+Texture Texture::fromBytes(std::span<const std::uint8_t> values, int width, int height) {
+  return integers(values.data(), GL_RGBA8UI, GL_RGBA_INTEGER, GL_UNSIGNED_BYTE, width, height);
 }
 
 void Texture::bind(unsigned unit) const {

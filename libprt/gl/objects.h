@@ -94,6 +94,8 @@ class Texture : public detail::Handle<detail::deleteTexture> {
   /// One or two 16-bit unsigned integers a texel, [height][width][components], as they are; the first row is
   /// row 0.
   static Texture fromIntegers(std::span<const std::uint16_t> values, int components, int width, int height);
+  /// Four bytes a texel, [height][width][4], as unsigned integers.
+  static Texture fromBytes(std::span<const std::uint8_t> values, int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -102,6 +104,8 @@ class Texture : public detail::Handle<detail::deleteTexture> {
 
  private:
   using Handle::Handle;
+  static Texture integers(const void* values, unsigned format, unsigned components, unsigned type, int width,
+                          int height);
   int width_ = 0, height_ = 0, samples_ = 1;
 };
 

@@ -24,6 +24,7 @@ struct Rtt {
   int bands = 5;
   int channels = 1;  ///< 1: the same in all three but for `colour`, exactly
   Rgb colour{1};     ///< factor on everything
+  int layers = 1;    ///< patches, one after the other in `values`: see rtt_layers.h; else only one is meant
   /// [v, u, view_y, view_x, k] or [v, u, view_y, view_x, k, 3]; v up, view_y up.
   std::vector<float> values;
   int bounces = 0;  ///< inside the patch

@@ -47,7 +47,7 @@ Columns orthonormal(const Columns& q) {
 RttFactors compressRtt(const Rtt& rtt, int terms, Job& job) {
   if (terms < 1 || terms > 256)
     throw ValueError("cannot keep " + std::to_string(terms) + " terms", "terms", "use 1 to 256");
-  const auto rowCount = Eigen::Index(rtt.texels) * rtt.texels,
+  const auto rowCount = Eigen::Index(rtt.texels) * rtt.texels * rtt.layers,
              width = Eigen::Index(rtt.values.size()) / rowCount;
   const Eigen::Map<const Rows> a(rtt.values.data(), rowCount, width);
   const Eigen::Index kept = std::min<Eigen::Index>(terms, std::min(rowCount, width)),
@@ -67,7 +67,7 @@ RttFactors compressRtt(const Rtt& rtt, int terms, Job& job) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
   RttFactors out;
   out.terms = int(kept), out.texels = rtt.texels, out.views = rtt.views, out.bands = rtt.bands;
-  out.channels = rtt.channels, out.colour = rtt.colour;
+  out.channels = rtt.channels, out.layers = rtt.layers, out.colour = rtt.colour;
   Columns turn(wide, kept);
   for (Eigen::Index t = 0; t < kept; ++t) turn.col(t) = solver.eigenvectors().col(wide - 1 - t).cast<float>();
   const Rows coefficients = left * turn, responses = (basis * turn).transpose();
@@ -87,8 +87,9 @@ RttFactors compressRtt(const Rtt& rtt, int terms, Job& job) {
 Rtt expandRtt(const RttFactors& f, int terms) {
   const int used = terms > 0 ? std::min(terms, f.terms) : f.terms;
   Rtt rtt(f.texels, f.views, f.bands, f.channels);
-  rtt.colour = f.colour;
-  const auto rowCount = Eigen::Index(f.texels) * f.texels, width = Eigen::Index(rtt.values.size()) / rowCount;
+  rtt.colour = f.colour, rtt.layers = f.layers;
+  rtt.values.resize(rtt.values.size() * std::size_t(f.layers));
+  const auto rowCount = Eigen::Index(f.texels) * f.texels * f.layers, width = Eigen::Index(rtt.values.size()) / rowCount;
   const Eigen::Map<const Rows> c(f.coefficients.data(), rowCount, f.terms),
       e(f.responses.data(), f.terms, width);
   Eigen::Map<Rows>(rtt.values.data(), rowCount, width) = c.leftCols(used) * e.topRows(used);

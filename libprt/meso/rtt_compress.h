@@ -13,9 +13,9 @@ namespace prt {
 
 struct RttFactors {
   int terms = 0;
-  int texels = 0, views = 0, bands = 0, channels = 1;
+  int texels = 0, views = 0, bands = 0, channels = 1, layers = 1;
   Rgb colour{1};
-  std::vector<float> coefficients;  ///< [v, u, term]
+  std::vector<float> coefficients;  ///< [layer, v, u, term]
   std::vector<float> responses;     ///< [term, view_y, view_x, k (, channel)]
   /// [terms + 1] relative Frobenius error left by 0, 1, .. terms terms.
   std::vector<double> errors;

@@ -1,5 +1,7 @@
 #include "libprt/project/export_synthesis.h"
 
+#include <algorithm>
+
 namespace prt {
 namespace {
 
@@ -26,6 +28,12 @@ void writeIdMapArray(const IdMap& map, const WriteArray& write) {
   write("idmap", Array::from<float>(std::span<const float>(values), {map.size, map.size, 2}),
         "patch coordinates of each texel, rows from the top, in steps of 1/65535; -1 where there is no "
         "surface");
+  if (map.layers == 0) return;
+  std::vector<float> weights(map.weights.size());
+  std::transform(map.weights.begin(), map.weights.end(), weights.begin(),
+                 [](std::uint8_t w) { return float(w) / 255.0f; });
+  write("idmap_layers", Array::from<float>(std::span<const float>(weights), {map.size, map.size, map.layers}),
+        "what of each texel the layers over the patch show; the patch shows the rest");
 }
 
 Image idMapPicture(const IdMap& map, int side) {

@@ -1,5 +1,6 @@
 #include "libprt/project/laid_patch.h"
 
+#include "libprt/meso/rtt_layers.h"
 #include "libprt/project/atlas_stages.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
@@ -25,6 +26,17 @@ std::shared_ptr<const PatchCover> coverOf(const Products& products, const Recipe
   return std::make_shared<PatchCover>(atlas->atlas, idmap->map, scene->mesh.triangleCount());
 }
 
+/// The patch's table with those of the layers behind it; null where they are not there yet.
+std::shared_ptr<const Rtt> tableOf(const Products& products, const std::shared_ptr<const Rtt>& patch,
+                                   int layers) {
+  if (layers == 1) return patch;
+  const auto over = products.get<LayersProduct>("layers");
+  if (!over || int(over->tables.size()) + 1 != layers) return nullptr;
+  std::vector<std::shared_ptr<const Rtt>> all{patch};
+  for (const auto& table : over->tables) all.push_back(table->rtt);
+  return std::make_shared<const Rtt>(stackedRtt(all));
+}
+
 /// Null when all carry the patch.
 std::shared_ptr<const PlainObjects> plainObjects(const Scene& scene, const Recipe& recipe, int bands) {
   std::vector<bool> carries;
@@ -40,7 +52,9 @@ std::shared_ptr<const PlainObjects> plainObjects(const Scene& scene, const Recip
 std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe) {
   if (recipe.patch.model == PatchModel::None) return {};
   if (recipe.synthesis.mapping == PatchMapping::Uv) return {"scene", "frames", "rtt"};
-  return {"scene", "frames", "rtt", "atlas", "idmap"};
+  std::vector<std::string> stages{"scene", "frames", "rtt", "atlas", "idmap"};
+  if (hasLayers(recipe)) stages.push_back("layers");
+  return stages;
 }
 
 std::vector<std::string> stagesOfPicture(const Recipe& recipe) {
@@ -62,12 +76,13 @@ std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const 
   if (!scene || !frames || !rtt || !rtt->rtt) return nullptr;
   if (scene->scene->materials.size() != recipe.objects.size()) return nullptr;
   const auto cover = coverOf(products, recipe, scene->scene);
-  if (!cover) return nullptr;
+  const auto table = cover ? tableOf(products, rtt->rtt, cover->layers()) : nullptr;
+  if (!table) return nullptr;
   auto surface = std::make_shared<BiscaleSurface>(
       scene->scene, std::shared_ptr<const TangentFrames>(frames, &frames->frames), cover,
-      std::make_shared<ResponseTable>(*rtt->rtt));
-  surface->plain = plainObjects(*scene->scene, recipe, rtt->rtt->bands);
-  if (recipe.method.filter) surface->filter = std::make_shared<PatchFilter>(cover, *rtt->rtt, job);
+      std::make_shared<ResponseTable>(*table));
+  surface->plain = plainObjects(*scene->scene, recipe, table->bands);
+  if (recipe.method.filter) surface->filter = std::make_shared<PatchFilter>(cover, *table, job);
   return surface;
 }
 

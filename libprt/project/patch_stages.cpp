@@ -8,9 +8,11 @@
 #include "libprt/meso/rtt_storage.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/product_rows.h"
+#include "libprt/synthesis/layer_masks.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace prt {
@@ -93,6 +95,37 @@ std::shared_ptr<RttProduct> rounded(Rtt rtt, RttStorage storage) {
     restoreRtt(stored, rtt);
   }
   product->rtt = std::make_shared<const Rtt>(std::move(rtt));
+  return product;
+}
+
+/// Null where there is none, or images of a real one.
+std::shared_ptr<const Patch> patchOf(const PatchOptions& options, StageRun& run) {
+  if (options.model == PatchModel::None || options.model == PatchModel::Btf) return nullptr;
+  run.job().begin("patch", 0);
+  return std::make_shared<const Patch>(
+      buildPatch(options, loadPatchSources(options, run.file(""), run.job()), run.job()));
+}
+
+std::shared_ptr<RttProduct> importedTable(const PatchOptions& options, StageRun& run) {
+  if (options.btf.empty()) throw ValueError("is not set", "patch.btf", "name the manifest of the images");
+  const RttRecipe& r = run.recipe().rtt;
+  Rtt rtt = importBtf(openBtf(run.file(options.btf)), {r.texels, r.views, r.bands}, run.job());
+  if (options.seamless) makeSeamless(rtt, run.job());
+  return rounded(std::move(rtt), r.storage);
+}
+
+/// The table of a patch: empty where there is none.
+std::shared_ptr<RttProduct> tableOf(const PatchOptions& options, const std::shared_ptr<const Patch>& patch,
+                                    StageRun& run, const std::function<void(const RttPreview&)>& preview) {
+  if (options.model == PatchModel::Btf) return importedTable(options, run);
+  if (!patch) return std::make_shared<RttProduct>();
+  const RttSettings settings = rttSettings(run.recipe());
+  const PatchScene scene = makePatchScene(patch, run.job());
+  const PatchLight light = bakePatchLight(scene, settings, run.job(), preview);
+  Rtt rtt = viewsOfPatch(scene, light, settings, run.job(), preview);
+  const ViewError viewError = measureViewError(scene, light, settings, rtt, run.job());
+  std::shared_ptr<RttProduct> product = rounded(std::move(rtt), run.recipe().rtt.storage);
+  product->viewError = viewError;
   return product;
 }
 
@@ -196,6 +229,15 @@ bool hasPatch(const Recipe& recipe) {
   return recipe.patch.model != PatchModel::None;
 }
 
+bool isPainted(const LayerRecipe& layer) {
+  return layer.patch.model != PatchModel::None && layer.spots.find_first_not_of(" ;") != std::string::npos;
+}
+
+bool hasLayers(const Recipe& recipe) {
+  return hasPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Synthesis &&
+         std::any_of(recipe.layers.begin(), recipe.layers.end(), isPainted);
+}
+
 RttSettings rttSettings(const Recipe& recipe) {
   const RttRecipe& r = recipe.rtt;
   RttSettings settings;
@@ -223,28 +265,12 @@ PatchSources loadPatchSources(const PatchOptions& options, const std::filesystem
 }
 
 ProductPtr makePatchStage(StageRun& run) {
-  const PatchOptions& options = run.recipe().patch;
   auto product = std::make_shared<PatchProduct>();
-  if (options.model == PatchModel::None || options.model == PatchModel::Btf) return product;
-  run.job().begin("patch", 0);
-  product->patch = std::make_shared<const Patch>(
-      buildPatch(options, loadPatchSources(options, run.file(""), run.job()), run.job()));
+  product->patch = patchOf(run.recipe().patch, run);
   return product;
 }
 
 ProductPtr makeRttStage(StageRun& run) {
-  const auto patch = run.input<PatchProduct>("patch");
-  const RttSettings settings = rttSettings(run.recipe());
-  if (run.recipe().patch.model == PatchModel::Btf) {
-    if (run.recipe().patch.btf.empty())
-      throw ValueError("is not set", "patch.btf", "name the manifest of the images");
-    const RttRecipe& r = run.recipe().rtt;
-    Rtt rtt = importBtf(openBtf(run.file(run.recipe().patch.btf)), {r.texels, r.views, r.bands}, run.job());
-    if (run.recipe().patch.seamless) makeSeamless(rtt, run.job());
-    return rounded(std::move(rtt), r.storage);
-  }
-  if (!patch->patch) return std::make_shared<RttProduct>();
-  const PatchScene scene = makePatchScene(patch->patch, run.job());
   std::function<void(const RttPreview&)> preview;
   if (run.wantsPreviews())
     preview = [&](const RttPreview& p) {
@@ -254,11 +280,51 @@ ProductPtr makeRttStage(StageRun& run) {
       product->rtt = std::make_shared<const Rtt>(p.rtt);
       run.preview(product, p.viewsDone + 1, p.viewsWanted + 1);
     };
-  const PatchLight light = bakePatchLight(scene, settings, run.job(), preview);
-  Rtt rtt = viewsOfPatch(scene, light, settings, run.job(), preview);
-  const ViewError viewError = measureViewError(scene, light, settings, rtt, run.job());
-  const std::shared_ptr<RttProduct> product = rounded(std::move(rtt), run.recipe().rtt.storage);
-  product->viewError = viewError;
+  return tableOf(run.recipe().patch, run.input<PatchProduct>("patch")->patch, run, preview);
+}
+
+ProductPtr makeLayersStage(StageRun& run) {
+  auto product = std::make_shared<LayersProduct>();
+  if (!hasLayers(run.recipe())) return product;
+  for (std::size_t i = 0; i < run.recipe().layers.size(); ++i) {
+    const PatchOptions& options = run.recipe().layers[i].patch;
+    try {
+      product->tables.push_back(tableOf(options, patchOf(options, run), run, {}));
+    } catch (const ValueError& error) {
+      throw ValueError(error.problem(), "layers[" + std::to_string(i) + "]." + error.where(), error.fix());
+    }
+  }
+  return product;
+}
+
+ProductData LayersProduct::save() const {
+  ProductData all;
+  json metas = json::array();
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    ProductData one = tables[i]->save();
+    metas.push_back(one.meta);
+    for (auto& [name, array] : one.arrays) all.arrays[name + std::to_string(i)] = std::move(array);
+  }
+  if (!tables.empty()) all.meta = json{{"layers", metas}}.dump();
+  return all;
+}
+
+ProductPtr LayersProduct::load(ProductData data) {
+  auto product = std::make_shared<LayersProduct>();
+  const json meta = json::parse(data.meta, nullptr, false);
+  const auto metas = meta.find("layers");
+  if (metas == meta.end() && data.arrays.empty()) return product;
+  if (metas == meta.end() || !metas->is_array() || metas->size() > std::size_t(kMostLayers)) unfit("layers");
+  for (std::size_t i = 0; i < metas->size(); ++i) {
+    if (!(*metas)[i].is_string()) unfit("layers");
+    ProductData one{(*metas)[i].get<std::string>(), {}};
+    for (const char* name : {"values", "lowest", "step"})
+      if (const auto found = data.arrays.find(name + std::to_string(i)); found != data.arrays.end())
+        one.arrays[name] = std::move(found->second);
+    auto table = std::dynamic_pointer_cast<const RttProduct>(RttProduct::load(std::move(one)));
+    if (!table || !table->rtt) unfit("layers");
+    product->tables.push_back(std::move(table));
+  }
   return product;
 }
 

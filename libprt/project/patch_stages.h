@@ -32,7 +32,20 @@ struct RttProduct : Product {
   static ProductPtr load(ProductData data);
 };
 
+/// Stage "layers": the tables of the layers over the patch, each as stage "rtt" makes its own.
+struct LayersProduct : Product {
+  std::vector<std::shared_ptr<const RttProduct>> tables;
+
+  ProductData save() const override;
+  static ProductPtr load(ProductData data);
+};
+
 bool hasPatch(const Recipe& recipe);
+/// Whether layers cover something of a patch that is grown over the surface.
+bool hasLayers(const Recipe& recipe);
+/// Whether a layer has a patch and is painted anywhere: recipes when resolved have no others.
+bool isPainted(const LayerRecipe& layer);
+ProductPtr makeLayersStage(StageRun& run);
 ProductPtr makePatchStage(StageRun& run);
 ProductPtr makeRttStage(StageRun& run);
 

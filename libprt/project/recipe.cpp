@@ -3,6 +3,7 @@
 #include "libprt/atlas/chart_settings.h"
 #include "libprt/core/error.h"
 #include "libprt/project/recipe_table.h"
+#include "libprt/synthesis/layer_masks.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -40,6 +41,9 @@ void checkRecipe(const Recipe& recipe, const std::string& where) {
       throw ValueError("flattens the object", at("objects[" + std::to_string(i) + "].transform.scale"),
                        "use factors other than 0");
   }
+  if (recipe.layers.size() > std::size_t(kMostLayers))
+    throw ValueError("has " + std::to_string(recipe.layers.size()) + " entries", at("layers"),
+                     "keep at most " + std::to_string(kMostLayers));
   for (std::size_t i = 0; i < recipe.lights.size(); ++i)
     if (recipe.lights[i].direction == Vec3(0))
       throw ValueError("has no length", at("lights[" + std::to_string(i) + "].direction"),

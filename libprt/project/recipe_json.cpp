@@ -78,9 +78,9 @@ void resizeArrays(Recipe& recipe, const json& root, const std::string& where) {
   }
 }
 
-/// What may stand in a recipe of this many objects, lights and cameras.
+/// What may stand in a recipe of this many objects, lights, cameras and layers.
 struct KnownKeys {
-  std::set<std::string> fields, sections, arrays{"objects", "lights", "cameras"};
+  std::set<std::string> fields, sections, arrays{"objects", "lights", "cameras", "layers"};
 
   explicit KnownKeys(Recipe& recipe) {
     fields.insert("version");
@@ -135,7 +135,8 @@ json recipeToJson(const Recipe& recipe) {
   json root{{"version", kRecipeVersion},
             {"objects", json::array()},
             {"lights", json::array()},
-            {"cameras", json::array()}};
+            {"cameras", json::array()},
+            {"layers", json::array()}};
   Recipe copy = recipe;
   forEachField(copy, [&](const FieldPlace& place, const FieldRef& field) {
     root[pointerOf(place.path())] = fieldToJson(field, place.parameter);

@@ -790,6 +790,28 @@ const std::vector<Row<PatchOptions>> kPatch{
      "Sharpness of that lobe."},
 };
 
+const std::vector<Row<LayerRecipe>> kLayer{
+    {"name",
+     [](LayerRecipe& x) -> FieldRef { return &x.name; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     "none",
+     "Name of the layer in lists."},
+    {"spots",
+     [](LayerRecipe& x) -> FieldRef { return &x.spots; },
+     ParameterType::Text,
+     "",
+     0,
+     0,
+     {},
+     kCostSynthesis,
+     "Where the layer covers what is below: spots 'x,y,z radius strength' on the surface, parted by ';'. In "
+     "the scene's unit; strength 0..1."},
+};
+
 const std::vector<Row<RttRecipe>> kRtt{
     {"texels",
      [](RttRecipe& x) -> FieldRef { return &x.texels; },
@@ -1069,6 +1091,8 @@ std::vector<Parameter> listParameters() {
   list(kAtlas, "atlas", all);
   list(kTransfer, "transfer", all);
   list(kPatch, "patch", all);
+  list(kLayer, "layers[]", all);
+  list(kPatch, "layers[].patch", all);
   list(kRtt, "rtt", all);
   list(kField, "field", all);
   list(kSynthesis, "synthesis", all);
@@ -1114,7 +1138,12 @@ void forEachField(Recipe& r, const std::function<void(const FieldPlace&, const F
   next = visitRows(kAtlas, r.atlas, "atlas", next, visit);
   next = visitRows(kTransfer, r.transfer, "transfer", next, visit);
   next = visitRows(kPatch, r.patch, "patch", next, visit);
-  next = visitRows(kRtt, r.rtt, "rtt", next, visit);
+  for (std::size_t i = 0; i < r.layers.size(); ++i) {
+    const std::string section = indexed("layers", i);
+    visitRows(kPatch, r.layers[i].patch, section + ".patch",
+              visitRows(kLayer, r.layers[i], section, next, visit), visit);
+  }
+  next = visitRows(kRtt, r.rtt, "rtt", next + kLayer.size() + kPatch.size(), visit);
   next = visitRows(kField, r.field, "field", next, visit);
   next = visitRows(kSynthesis, r.synthesis, "synthesis", next, visit);
   next = visitRows(kIdMap, r.idmap, "idmap", next, visit);
@@ -1124,7 +1153,8 @@ void forEachField(Recipe& r, const std::function<void(const FieldPlace&, const F
 std::vector<RecipeArray> recipeArrays(Recipe& r) {
   return {{"objects", r.objects.size(), [&r](std::size_t n) { r.objects.resize(n); }},
           {"lights", r.lights.size(), [&r](std::size_t n) { r.lights.resize(n); }},
-          {"cameras", r.cameras.size(), [&r](std::size_t n) { r.cameras.resize(n); }}};
+          {"cameras", r.cameras.size(), [&r](std::size_t n) { r.cameras.resize(n); }},
+          {"layers", r.layers.size(), [&r](std::size_t n) { r.layers.resize(n); }}};
 }
 
 }  // namespace prt

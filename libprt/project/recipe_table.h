@@ -30,7 +30,7 @@ struct FieldPlace {
 /// Calls visit for every value of the recipe, in the table's order.
 void forEachField(Recipe& recipe, const std::function<void(const FieldPlace&, const FieldRef&)>& visit);
 
-/// The arrays of the recipe: "objects", "lights", "cameras".
+/// The arrays of the recipe: "objects", "lights", "cameras", "layers".
 struct RecipeArray {
   std::string name;
   std::size_t size;

@@ -1,6 +1,7 @@
 // What a recipe comes to: `auto` decided, values without effect at their defaults.
 
 #include "libprt/project/laid_patch.h"
+#include "libprt/project/patch_stages.h"
 #include "libprt/project/pipeline.h"
 
 #include <algorithm>
@@ -50,29 +51,21 @@ void resolveMesh(MeshRecipe& mesh) {
   if (mesh.path == "builtin:rock") mesh.seed = given.seed;
 }
 
-/// Only what the patch's kind reads.
-void resolvePatch(Recipe& recipe) {
-  const PatchOptions given = recipe.patch;
-  PatchOptions& patch = recipe.patch = {};
+/// What of a patch its kind reads.
+PatchOptions readOf(const PatchOptions& given) {
+  PatchOptions patch;
   patch.model = given.model;
-  if (given.model == PatchModel::None) {
-    recipe.rtt = {};
-    return;
-  }
+  if (given.model == PatchModel::None) return patch;
   if (given.model == PatchModel::Btf) {
-    const RttRecipe rtt = recipe.rtt;
-    recipe.rtt = {};
-    recipe.rtt.texels = rtt.texels, recipe.rtt.views = rtt.views, recipe.rtt.bands = rtt.bands;
-    recipe.rtt.storage = rtt.storage;
     patch.btf = given.btf, patch.seamless = given.seamless;
-    return;
+    return patch;
   }
   patch.texture = given.texture, patch.gloss = given.gloss;
   patch.albedo = given.albedo, patch.specular = given.specular;
   if (luminance(given.specular) > 0)
     patch.exponent = given.exponent;
   else
-    patch.gloss.clear(), recipe.rtt.lobeRays = RttRecipe{}.lobeRays;
+    patch.gloss.clear();
   if (given.model == PatchModel::HeightField) {
     patch.heightmap = given.heightmap, patch.depth = given.depth, patch.grid = given.grid;
     if (isBuiltin(given.heightmap)) patch.count = given.count, patch.seed = given.seed;
@@ -81,6 +74,31 @@ void resolvePatch(Recipe& recipe) {
     patch.amplitude = given.amplitude, patch.warp = given.warp;
   } else if (given.model == PatchModel::Mesh) {
     patch.mesh = given.mesh, patch.period = given.period;
+  }
+  return patch;
+}
+
+/// Patches, and what of `rtt` any of them reads. Layers that show nothing anywhere are none.
+void resolvePatch(Recipe& recipe) {
+  const RttRecipe given = recipe.rtt;
+  if (!hasLayers(recipe)) recipe.layers.clear();
+  std::erase_if(recipe.layers, [](const LayerRecipe& layer) { return !isPainted(layer); });
+  bool baked = false, glossy = false;
+  const auto resolve = [&](PatchOptions& patch) {
+    patch = readOf(patch);
+    baked = baked || (patch.model != PatchModel::None && patch.model != PatchModel::Btf);
+    glossy = glossy || luminance(patch.specular) > 0;
+  };
+  resolve(recipe.patch);
+  for (LayerRecipe& layer : recipe.layers) resolve(layer.patch);
+  if (!hasPatch(recipe)) {
+    recipe.rtt = {};
+  } else if (!baked) {
+    recipe.rtt = {};
+    recipe.rtt.texels = given.texels, recipe.rtt.views = given.views, recipe.rtt.bands = given.bands;
+    recipe.rtt.storage = given.storage;
+  } else if (!glossy) {
+    recipe.rtt.lobeRays = RttRecipe{}.lobeRays;
   }
 }
 
@@ -115,6 +133,10 @@ std::vector<std::string> contradictions(const Recipe& recipe) {
     lines.push_back("transfer.kind=visibility holds shadows only: the " + std::to_string(t.bounces) +
                     " bounces of transfer.bounces are left out; use matrix or auto to have them, or set "
                     "transfer.bounces=0");
+  if (hasPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Uv &&
+      std::any_of(recipe.layers.begin(), recipe.layers.end(), isPainted))
+    lines.push_back(
+        "synthesis.mapping=uv lays one patch: the layers are left out; use synthesis to have them");
   if (t.where == TransferWhere::Texel && showsPatch(recipe))
     lines.push_back(
         "method.name=biscale lights the patch by transfer at the vertices: transfer.where=texel is left out; "

@@ -35,6 +35,10 @@ bool grownPatch(const Recipe& recipe) {
   return showsPatch(recipe) && recipe.synthesis.mapping == PatchMapping::Synthesis;
 }
 
+bool grownLayers(const Recipe& recipe) {
+  return showsPatch(recipe) && hasLayers(recipe);
+}
+
 /// Charts of objects that carry no patch are packed smaller where there is one.
 std::string roomForPatchText(const Recipe& recipe) {
   return recipe.patch.model != PatchModel::None ? plainObjectsText(recipe) : std::string();
@@ -147,10 +151,18 @@ std::vector<Stage> makeStages() {
        .wanted = hasPatch,
        .make = makeRttStage,
        .load = RttProduct::load},
+      {.name = "layers",
+       .makes = "the same for the patches that are painted over it",
+       .reads = {"layers[].patch", "rtt"},
+       .wanted = grownLayers,
+       .previews = false,
+       .make = makeLayersStage,
+       .load = LayersProduct::load},
       {.name = "synthesis",
        .makes = "the place in the patch of every vertex of a dense mesh over the surface",
-       .inputs = {"scene", "frames", "rtt"},
-       .reads = {"field.symmetry", "synthesis"},
+       .inputs = {"scene", "frames", "rtt", "layers"},
+       .onlyFor = {{"layers", hasLayers}},
+       .reads = {"field.symmetry", "synthesis", "layers[].spots"},
        .derives = plainObjectsText,
        .wanted = grownPatch,
        .previews = false,
@@ -159,7 +171,7 @@ std::vector<Stage> makeStages() {
       {.name = "idmap",
        .makes = "the place in the patch of every texel of the atlas",
        .inputs = {"scene", "atlas", "synthesis"},
-       .reads = {"idmap"},
+       .reads = {"idmap", "layers[].spots"},
        .wanted = grownPatch,
        .make = makeIdMapStage,
        .load = IdMapProduct::load},

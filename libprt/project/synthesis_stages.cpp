@@ -81,11 +81,34 @@ class PatchedPart {
   const TangentFrames* frames_;
 };
 
+std::vector<LayerMask> layerMasks(const MesoMesh& meso, const Recipe& recipe) {
+  std::vector<LayerMask> masks;
+  for (const LayerRecipe& layer : recipe.layers) masks.emplace_back(meso, parseSpots(layer.spots));
+  return masks;
+}
+
 /// Texels that show what carries no patch become empty.
 void leaveOut(const std::vector<bool>& carries, GeometryImage& image) {
   for (std::size_t i = 0; i < image.triangle.size(); ++i)
     if (image.kind[i] != TexelKind::Empty && !carries[image.triangle[i]])
       image.kind[i] = TexelKind::Empty, image.triangle[i] = kNowhere, image.barycentric[i] = Vec2(0);
+}
+
+void readLayers(const ProductData& data, IdMap& map) {
+  if (!data.arrays.contains("layers")) return;
+  const Array& layers = data.array("layers", DType::u8, 3);
+  if (layers.shape[0] != map.size || layers.shape[1] != map.size || layers.shape[2] < 1 ||
+      layers.shape[2] > kMostLayers)
+    unfit("idmap");
+  map.layers = int(layers.shape[2]);
+  const auto weights = layers.as<std::uint8_t>();
+  map.weights.assign(weights.begin(), weights.end());
+  if (map.weights.size() != map.ids.size() / 2 * std::size_t(map.layers)) unfit("idmap");
+  for (std::size_t i = 0; i < map.weights.size(); i += std::size_t(map.layers)) {
+    int sum = 0;
+    for (int k = 0; k < map.layers; ++k) sum += map.weights[i + std::size_t(k)];
+    if (sum > 255) unfit("idmap");
+  }
 }
 
 }  // namespace
@@ -113,22 +136,32 @@ std::size_t mesoVerticesOf(const SynthesisRecipe& synthesis, const Surface& surf
   return std::clamp<std::size_t>(wanted, 16, kMost);
 }
 
-Exemplar exemplarFor(const Rtt& rtt, const MesoMesh& meso, double patchWidth, int symmetry, Job& job) {
+SurfaceExemplars exemplarsFor(const Rtt& rtt, const LayersProduct* layers, const Recipe& recipe,
+                              const MesoMesh& meso, double patchWidth, Job& job) {
   ExemplarOptions options;
-  options.turns = symmetry;
+  options.turns = symmetryOf(recipe.field);
   options.spacings = exemplarSpacings(meso, patchWidth, rtt.texels);
-  return makeExemplar(rtt, options, job);
+  SurfaceExemplars out;
+  out.exemplars.push_back(makeExemplar(rtt, options, job));
+  if (!hasLayers(recipe)) return out;
+  if (!layers || layers->tables.size() != recipe.layers.size())
+    throw ValueError("are not baked", "layers", "run prt bake");
+  for (const auto& table : layers->tables) out.exemplars.push_back(makeExemplar(*table->rtt, options, job));
+  out.weights = vertexLayerWeights(meso, layerMasks(meso, recipe), job);
+  return out;
 }
 
 SynthesisQuality qualityOf(const SynthesisProduct& product, const TriMesh& mesh, const TangentFrames& frames,
-                           const Rtt& rtt, int symmetry, std::span<const std::uint32_t> chartOf, Job& job) {
+                           const Rtt& rtt, const LayersProduct* layers, const Recipe& recipe,
+                           std::span<const std::uint32_t> chartOf, Job& job) {
   const MesoMesh& meso = *product.meso;
   const Surface surface(mesh, job);
   const SurfaceSheets sheets(surface);
-  const Neighbourhoods finest = makeNeighbourhoods(meso, sheets, mesoTangents(meso, frames, job), symmetry,
-                                                   rtt.texels / product.patchWidth, meso.levels() - 1, job);
-  return measureSynthesis(meso, finest, exemplarFor(rtt, meso, product.patchWidth, symmetry, job),
-                          *product.coordinates, chartOf);
+  const Neighbourhoods finest =
+      makeNeighbourhoods(meso, sheets, mesoTangents(meso, frames, job), symmetryOf(recipe.field),
+                         rtt.texels / product.patchWidth, meso.levels() - 1, job);
+  const SurfaceExemplars exemplars = exemplarsFor(rtt, layers, recipe, meso, product.patchWidth, job);
+  return measureSynthesis(meso, finest, exemplars.all(), *product.coordinates, chartOf);
 }
 
 ProductPtr makeFieldStage(StageRun& run) {
@@ -158,7 +191,8 @@ ProductPtr makeSynthesisStage(StageRun& run) {
       job));
   const std::vector<Vec3> tangents = mesoTangents(*meso, part.frames(), job);
   const int symmetry = symmetryOf(run.recipe().field);
-  const Exemplar exemplar = exemplarFor(*rtt, *meso, width, symmetry, job);
+  const auto layers = hasLayers(run.recipe()) ? run.input<LayersProduct>("layers") : nullptr;
+  const SurfaceExemplars exemplars = exemplarsFor(*rtt, layers.get(), run.recipe(), *meso, width, job);
   const std::vector<VertexWish> wishes = vertexWishes(*meso, parseWishes(recipe.wishes), job);
   SynthesisOptions options;
   options.patchWidth = width, options.symmetry = symmetry, options.jitter = double(recipe.jitter);
@@ -175,12 +209,12 @@ ProductPtr makeSynthesisStage(StageRun& run) {
   auto product = std::make_shared<SynthesisProduct>();
   product->meso = part.ofScene(meso);
   product->coordinates =
-      std::make_shared<std::vector<Vec2>>(synthesise(*meso, sheets, tangents, exemplar, options, job));
+      std::make_shared<std::vector<Vec2>>(synthesise(*meso, sheets, tangents, exemplars.all(), options, job));
   product->patchWidth = width;
   product->quality = measureSynthesis(
       *meso,
       makeNeighbourhoods(*meso, sheets, tangents, symmetry, rtt->texels / width, meso->levels() - 1, job),
-      exemplar, *product->coordinates, {});
+      exemplars.all(), *product->coordinates, {});
   return product;
 }
 
@@ -201,9 +235,10 @@ ProductPtr makeIdMapStage(StageRun& run) {
   GeometryImage image = makeGeometryImage(atlas, size, -1, job);
   leaveOut(carryingTriangles(*scene, run.recipe()), image);
   const TexelSurface texels = texelSurface(mesh, atlas, image, job);
-  product->map = std::make_shared<IdMap>(
-      makeIdMap(size, shootNormals(*synthesis->meso, sheets, image, texels, {neighbours}, job),
-                *synthesis->coordinates));
+  IdMap map = makeIdMap(size, shootNormals(*synthesis->meso, sheets, image, texels, {neighbours}, job),
+                        *synthesis->coordinates);
+  if (hasLayers(run.recipe())) addLayers(map, texels, layerMasks(*synthesis->meso, run.recipe()), job);
+  product->map = std::make_shared<IdMap>(std::move(map));
   return product;
 }
 
@@ -266,6 +301,9 @@ ProductData IdMapProduct::save() const {
   ProductData data;
   data.arrays["ids"] =
       Array::from<std::uint16_t>(std::span<const std::uint16_t>(map->ids), {map->size, map->size, 2});
+  if (map->layers > 0)
+    data.arrays["layers"] = Array::from<std::uint8_t>(std::span<const std::uint8_t>(map->weights),
+                                                      {map->size, map->size, map->layers});
   return data;
 }
 
@@ -282,6 +320,7 @@ ProductPtr IdMapProduct::load(ProductData data) {
   if (map.ids.size() != 2 * std::size_t(map.size) * std::size_t(map.size)) unfit("idmap");
   for (std::size_t i = 0; i < map.ids.size(); i += 2)
     if ((map.ids[i] == IdMap::kEmpty) != (map.ids[i + 1] == IdMap::kEmpty)) unfit("idmap");
+  readLayers(data, map);
   product->map = std::make_shared<IdMap>(std::move(map));
   return product;
 }

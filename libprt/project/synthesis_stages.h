@@ -2,8 +2,10 @@
 // The stages that lay the patch over the scene: the direction field, the synthesis on the meso mesh, and the
 // id map over the atlas.
 
+#include "libprt/project/patch_stages.h"
 #include "libprt/project/stages.h"
 #include "libprt/synthesis/id_map.h"
+#include "libprt/synthesis/layer_masks.h"
 #include "libprt/synthesis/orientation_field.h"
 #include "libprt/synthesis/texture_synthesis.h"
 
@@ -53,12 +55,22 @@ FieldOptions fieldOptionsOf(const FieldRecipe& field);
 /// Vertices of the meso mesh that the recipe asks for.
 std::size_t mesoVerticesOf(const SynthesisRecipe& synthesis, const Surface& surface, double patchWidth,
                            int texels);
-/// The exemplar as the stage makes it.
-Exemplar exemplarFor(const Rtt& rtt, const MesoMesh& meso, double patchWidth, int symmetry, Job& job);
+/// The exemplars of a surface, and what of each vertex each of them shows; no weights where there is one.
+struct SurfaceExemplars {
+  std::vector<Exemplar> exemplars;
+  std::vector<float> weights;
+
+  PatchExemplars all() const { return {exemplars, weights}; }
+};
+/// As the stage makes them, of the patch and of the layers that `recipe`, resolved, has. Throws ValueError
+/// when `layers` has not as many.
+SurfaceExemplars exemplarsFor(const Rtt& rtt, const LayersProduct* layers, const Recipe& recipe,
+                              const MesoMesh& meso, double patchWidth, Job& job);
 
 /// The quality once more, with charts told apart (`chartOf` of each triangle; may be empty). Takes seconds.
 SynthesisQuality qualityOf(const SynthesisProduct& product, const TriMesh& mesh, const TangentFrames& frames,
-                           const Rtt& rtt, int symmetry, std::span<const std::uint32_t> chartOf, Job& job);
+                           const Rtt& rtt, const LayersProduct* layers, const Recipe& recipe,
+                           std::span<const std::uint32_t> chartOf, Job& job);
 
 /// Strokes as `field.strokes` has them: points "x,y,z" parted by blanks, strokes parted by ';'. Throws
 /// ValueError when the text is not of that form or a stroke has fewer than two points.
@@ -67,5 +79,8 @@ std::string strokesToText(const std::vector<FieldStroke>& strokes);
 /// Wishes as `synthesis.wishes` has them: "x,y,z radius u,v extent" parted by ';'. Throws ValueError.
 std::vector<PatchWish> parseWishes(const std::string& text);
 std::string wishesToText(const std::vector<PatchWish>& wishes);
+/// Spots as `layers[].spots` has them: "x,y,z radius strength" parted by ';'. Throws ValueError.
+std::vector<LayerSpot> parseSpots(const std::string& text);
+std::string spotsToText(const std::vector<LayerSpot>& spots);
 
 }  // namespace prt

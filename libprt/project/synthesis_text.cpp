@@ -1,4 +1,4 @@
-// Painted strokes and wishes as text in the recipe.
+// Painted strokes, wishes and spots of layers as text in the recipe.
 
 #include "libprt/core/error.h"
 #include "libprt/project/synthesis_stages.h"
@@ -76,6 +76,28 @@ std::vector<PatchWish> parseWishes(const std::string& text) {
       refuse(part, "synthesis.wishes", "write x,y,z radius u,v extent");
   }
   return wishes;
+}
+
+std::vector<LayerSpot> parseSpots(const std::string& text) {
+  std::vector<LayerSpot> spots;
+  for (const std::string_view part : split(text, ';')) {
+    const auto words = split(part, ' ');
+    LayerSpot& spot = spots.emplace_back();
+    if (words.size() != 3 || !readNumbers(words[0], std::span(&spot.centre[0], 3)) ||
+        !readNumbers(words[1], std::span(&spot.radius, 1)) ||
+        !readNumbers(words[2], std::span(&spot.strength, 1)) || !(spot.radius > 0) || spot.strength < 0 ||
+        spot.strength > 1)
+      refuse(part, "layers[].spots", "write x,y,z radius strength, strength from 0 to 1");
+  }
+  return spots;
+}
+
+std::string spotsToText(const std::vector<LayerSpot>& spots) {
+  std::string text;
+  for (const LayerSpot& s : spots)
+    text += fmt::format("{}{},{},{} {} {}", text.empty() ? "" : ";", s.centre.x, s.centre.y, s.centre.z,
+                        s.radius, s.strength);
+  return text;
 }
 
 std::string wishesToText(const std::vector<PatchWish>& wishes) {

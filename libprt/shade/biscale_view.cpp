@@ -72,9 +72,9 @@ bool addFiltered(const PatchFilter& filter, const FilterPlace& middle, const Foo
     if (coarse < 1) {
       FilterTexels around = filter.texelsAround(place);
       if (around.empty()) around = here;  // beyond the chart
-      for (int k = 0; k < 4; ++k)
+      for (std::size_t k = 0; k < around.count; ++k)
         if (const float weight = around.weight[k] * part * (1 - coarse); weight > 0)
-          sum.add(sum.table(), around.texel[std::size_t(k)], weight);
+          sum.add(sum.table(), around.texel[k], weight);
     }
     if (coarse > 0) filter.add(place, level, part * coarse, coefficients);
   }
@@ -128,7 +128,7 @@ class Maker {
       out.view[i] = std::uint16_t(views[i].index);
       out.viewWeight[int(i)] = views[i].weight;
     }
-    if (!out.plain && !(surface_.filter && filter(f, out, tile)) && !look(f, out)) return;
+    if (!out.plain && !(surface_.filter && filter(f, out, tile)) && !look(f, out, tile)) return;
     for (std::size_t i = 0; i < 3; ++i) {
       out.corner[i] = surface_.shading.corner[3 * std::size_t(f.triangle) + i];
       std::atomic_ref(used_[out.corner[i]]).store(1, std::memory_order_relaxed);
@@ -137,11 +137,28 @@ class Maker {
   }
 
   /// The texel that is shown; false where there is none.
-  bool look(const Fragment& f, BiscaleFragment& out) const {
+  bool look(const Fragment& f, BiscaleFragment& out, BiscaleTile& tile) const {
     const Vec2 patch = surface_.cover->at(f.triangle, f.barycentric);
     if (patch.x < 0) return false;
-    out.texel = surface_.responses->texelAt(patch);
+    const ResponseTable& table = *surface_.responses;
+    const LayerShares shares = surface_.cover->sharesAt(f.triangle, f.barycentric);
+    const std::uint32_t texel = table.texelAt(patch);
+    if (shares.count > 1) {
+      ResponseSum sum(table, out);
+      for (std::size_t n = 0; n < shares.count; ++n)
+        sum.add(table, texel + shares.layer[n] * table.texelCount(), shares.weight[n]);
+      keep(sum, out, tile);
+    } else {
+      out.texel = texel + shares.layer[0] * table.texelCount();
+    }
     return true;
+  }
+
+  /// The fragment's response is what was summed up.
+  void keep(const ResponseSum& sum, BiscaleFragment& out, BiscaleTile& tile) const {
+    out.filtered = true;
+    out.texel = std::uint32_t(tile.responses.size() / surface_.responses->blockSize());
+    sum.store(tile.responses);
   }
 
   /// The response of all that the pixel covers; false where nothing can be told.
@@ -155,9 +172,7 @@ class Maker {
                                         filter.placeStep(f.triangle, weightStep(steps.down, e1, e2)));
     ResponseSum sum(*surface_.responses, out);
     if (!addFiltered(filter, filter.place(f.triangle, f.barycentric), print, sum)) return false;
-    out.filtered = true;
-    out.texel = std::uint32_t(tile.responses.size() / surface_.responses->blockSize());
-    sum.store(tile.responses);
+    keep(sum, out, tile);
     return true;
   }
 

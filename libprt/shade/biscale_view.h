@@ -44,7 +44,7 @@ struct BiscaleFragment {
   std::array<std::uint32_t, 3> corner{};  ///< in BiscaleView::frames
   Vec3 weight{0};                         ///< and their weights
   std::uint32_t texel = 0;  ///< of the patch, or of PlainObjects; filtered: place in BiscaleTile::responses
-  bool filtered = false;    ///< its response is one of the tile's, views interpolated
+  bool filtered = false;    ///< its response is one of the tile's, views interpolated: of more than one texel
   bool plain = false;       ///< shows its material: texel and views are of PlainObjects
   std::array<std::uint16_t, 4> view{};  ///< cells of the view square
   Vec4 viewWeight{0};                   ///< add up to 1

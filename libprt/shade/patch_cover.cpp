@@ -7,6 +7,24 @@
 
 namespace prt {
 
+LayerShares layerShares(const IdMap& map, std::size_t texel) {
+  LayerShares out;
+  int left = 255;
+  out.count = 1;  // the place of the lowest, which takes what the others leave
+  for (std::size_t k = 0; k < std::size_t(map.layers); ++k) {
+    const int part = map.weights[texel * std::size_t(map.layers) + k];
+    if (part == 0) continue;
+    left -= part;
+    out.layer[out.count] = std::uint32_t(k + 1), out.weight[out.count++] = float(part) / 255.0f;
+  }
+  out.weight[0] = float(left) / 255.0f;
+  if (left > 0 || out.count == 1) return out;
+  std::copy(out.layer.begin() + 1, out.layer.end(), out.layer.begin());
+  std::copy(out.weight.begin() + 1, out.weight.end(), out.weight.begin());
+  --out.count;
+  return out;
+}
+
 PatchCover::PatchCover(std::shared_ptr<const Atlas> atlas, std::shared_ptr<const IdMap> map,
                        std::size_t triangles)
     : atlas_(std::move(atlas)), map_(std::move(map)) {
@@ -23,12 +41,23 @@ PatchCover::PatchCover(std::shared_ptr<const TriMesh> mesh, const PatchRepeat& r
 
 Vec2 PatchCover::at(std::uint32_t triangle, const Vec2& barycentric) const {
   if (mesh_) return directPatchCoordinates(*mesh_, repeat_, triangle, barycentric);
+  return map_->at(mapTexel(triangle, barycentric));
+}
+
+LayerShares PatchCover::sharesAt(std::uint32_t triangle, const Vec2& barycentric) const {
+  if (layers() > 1) return layerShares(*map_, mapTexel(triangle, barycentric));
+  LayerShares only;
+  only.weight[0] = 1, only.count = 1;
+  return only;
+}
+
+std::size_t PatchCover::mapTexel(std::uint32_t triangle, const Vec2& barycentric) const {
   const UVec3& t = atlas_->uvTriangles[triangle];
   const Vec2 uv = interpolated(atlas_->uv[t.x], atlas_->uv[t.y], atlas_->uv[t.z], barycentric);
   const int last = map_->size - 1;
   const int x = std::clamp(int(uv.x * float(map_->size)), 0, last),
             y = std::clamp(int((1 - uv.y) * float(map_->size)), 0, last);
-  return map_->at(std::size_t(y) * std::size_t(map_->size) + std::size_t(x));
+  return std::size_t(y) * std::size_t(map_->size) + std::size_t(x);
 }
 
 std::vector<Vec2> PatchCover::cornerCoordinates() const {

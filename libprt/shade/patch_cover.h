@@ -7,10 +7,22 @@
 #include "libprt/synthesis/direct_mapping.h"
 #include "libprt/synthesis/id_map.h"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace prt {
+
+/// The patches that are shown at a place, the lowest first, and what each shows of it; adds up to 1.
+struct LayerShares {
+  static constexpr std::size_t kMost = 4;
+  std::array<std::uint32_t, kMost> layer{};
+  std::array<float, kMost> weight{};
+  std::size_t count = 0;
+};
+/// Of a texel of the map.
+LayerShares layerShares(const IdMap& map, std::size_t texel);
 
 class PatchCover {
  public:
@@ -22,6 +34,10 @@ class PatchCover {
   /// Patch coordinates in [0, 1), nearest texel of the id map; negative where it is empty.
   Vec2 at(std::uint32_t triangle, const Vec2& barycentric) const;
 
+  LayerShares sharesAt(std::uint32_t triangle, const Vec2& barycentric) const;
+  /// Patches one over the other.
+  int layers() const { return map_ ? map_->layers + 1 : 1; }
+
   /// Both null where the mesh's own coordinates lay the patch.
   const IdMap* map() const { return map_.get(); }
   const Atlas* atlas() const { return atlas_.get(); }
@@ -29,6 +45,8 @@ class PatchCover {
   std::vector<Vec2> cornerCoordinates() const;
 
  private:
+  std::size_t mapTexel(std::uint32_t triangle, const Vec2& barycentric) const;
+
   std::shared_ptr<const Atlas> atlas_;
   std::shared_ptr<const IdMap> map_;
   std::shared_ptr<const TriMesh> mesh_;

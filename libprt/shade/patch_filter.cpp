@@ -105,8 +105,9 @@ PatchFilter::PatchFilter(std::shared_ptr<const PatchCover> cover, const Rtt& rtt
   error_ = factors.errors.back();
   terms_ = std::make_shared<ResponseTable>(tableOfTerms(factors));
   // [texels][terms], padded with zeros where the patch has fewer.
-  std::vector<float> texels(std::size_t(texels_ * texels_) * kTerms, 0.0f);
-  for (std::size_t q = 0; q < std::size_t(texels_ * texels_); ++q)
+  const auto count = std::size_t(rtt.layers) * std::size_t(texels_ * texels_);
+  std::vector<float> texels(count * kTerms, 0.0f);
+  for (std::size_t q = 0; q < count; ++q)
     std::copy_n(factors.coefficients.begin() + std::ptrdiff_t(q * std::size_t(factors.terms)), factors.terms,
                 texels.begin() + std::ptrdiff_t(q * kTerms));
   corners_ = cover_->cornerCoordinates();
@@ -167,8 +168,13 @@ void PatchFilter::buildCharts(const std::vector<float>& texels, Job& job) {
         if (image.triangle[i] == kNowhere || chartOf_[image.triangle[i]] != chart || map.empty(i)) continue;
         const TexelKind kind = image.kind[i];
         if (kind == TexelKind::Gutter) continue;
+        const float weight = kind == TexelKind::Inside ? 1 : kRim;
         const auto q = std::size_t(patchTexel(map.at(i)));
-        first.add(first.at(x >> 1, y >> 1), texels.data() + q * kTerms, kind == TexelKind::Inside ? 1 : kRim);
+        const LayerShares shares = layerShares(map, i);
+        for (std::size_t n = 0; n < shares.count; ++n)
+          first.add(first.at(x >> 1, y >> 1),
+                    texels.data() + (q + shares.layer[n] * std::size_t(texels_ * texels_)) * kTerms,
+                    weight * shares.weight[n]);
         any = true;
       }
     if (!any) return all.clear();
@@ -235,18 +241,21 @@ FilterTexels PatchFilter::texelsAround(const FilterPlace& place) const {
   for (int i = 0; i < 4; ++i) {
     const int x = int(low.x) + (i & 1), y = int(low.y) + (i >> 1);
     const float weight = (i & 1 ? part.x : 1 - part.x) * (i >> 1 ? part.y : 1 - part.y);
+    if (!(weight > 0)) continue;
     if (repeats()) {
-      out.texel[std::size_t(i)] = std::uint32_t(wrapped(y, texels_) * texels_ + wrapped(x, texels_));
+      out.add(std::uint32_t(wrapped(y, texels_) * texels_ + wrapped(x, texels_)), weight);
     } else {
       if (x < 0 || y < 0 || x >= size_ || y >= size_) continue;
       const std::size_t texel = std::size_t(y) * std::size_t(size_) + std::size_t(x);
       if (owner_[texel] != std::uint16_t(place.chart + 1)) continue;
-      out.texel[std::size_t(i)] = std::uint32_t(patchTexel(cover_->map()->at(texel)));
+      const auto q = std::uint32_t(patchTexel(cover_->map()->at(texel)));
+      const LayerShares shares = layerShares(*cover_->map(), texel);
+      for (std::size_t n = 0; n < shares.count; ++n)
+        out.add(q + shares.layer[n] * std::uint32_t(texels_ * texels_), weight * shares.weight[n]);
     }
-    out.weight[i] = weight;
     sum += weight;
   }
-  out.weight *= sum > 0 ? 1 / sum : 0.0f;
+  for (std::size_t n = 0; n < out.count; ++n) out.weight[n] /= sum;
   return out;
 }
 

@@ -32,12 +32,16 @@ struct FilterPlace {
   std::uint32_t chart = 0;
 };
 
-/// Texels of level 0 around a place that belong to its chart; weights add up to 1, or are all 0.
+/// Texels of level 0 around a place that belong to its chart, of each layer that they show; weights add up to
+/// 1, or there are none.
 struct FilterTexels {
-  std::array<std::uint32_t, 4> texel{};  ///< of the patch
-  Vec4 weight{0};
+  static constexpr std::size_t kMost = 4 * LayerShares::kMost;
+  std::array<std::uint32_t, kMost> texel{};  ///< of the patch, see ResponseTable::layers()
+  std::array<float, kMost> weight{};
+  std::size_t count = 0;
 
-  bool empty() const { return weight == Vec4(0); }
+  bool empty() const { return count == 0; }
+  void add(std::uint32_t t, float w) { texel[count] = t, weight[count++] = w; }
 };
 
 class PatchFilter {

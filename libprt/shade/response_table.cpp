@@ -9,13 +9,14 @@ namespace prt {
 
 ResponseTable::ResponseTable(const Rtt& rtt)
     : texels_(rtt.texels),
+      layers_(rtt.layers),
       bands_(rtt.bands),
       channels_(rtt.channels),
       views_(rtt.views),
       colour_(rtt.colour),
       padded_((std::size_t(rtt.functions()) + 7) / 8 * 8) {
   constexpr std::size_t kLine = 64 / sizeof(std::uint16_t);
-  const std::size_t blocks = std::size_t(texels_) * std::size_t(texels_) * std::size_t(views_.count());
+  const std::size_t blocks = std::size_t(layers_) * texelCount() * std::size_t(views_.count());
   halfs_.assign(blocks * blockSize() + kLine, 0);
   const auto address = reinterpret_cast<std::uintptr_t>(halfs_.data()) / sizeof(std::uint16_t);
   std::uint16_t* to = halfs_.data() + (kLine - address % kLine) % kLine;

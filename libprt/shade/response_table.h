@@ -17,6 +17,9 @@ class ResponseTable {
   ResponseTable& operator=(const ResponseTable&) = delete;
 
   int texels() const { return texels_; }
+  /// Patches; texel t of patch n is t + n * texelCount().
+  int layers() const { return layers_; }
+  std::uint32_t texelCount() const { return std::uint32_t(texels_ * texels_); }
   int bands() const { return bands_; }
   int channels() const { return channels_; }
   const ViewSquare& views() const { return views_; }
@@ -30,14 +33,14 @@ class ResponseTable {
   const std::uint16_t* block(std::uint32_t texel, std::uint32_t view) const {
     return first_ + (std::size_t(texel) * std::size_t(views_.count()) + view) * blockSize();
   }
-  /// All blocks, [texels * texels][views][channels][padded].
+  /// All blocks, [layers * texels * texels][views][channels][padded].
   std::span<const std::uint16_t> halfs() const {
-    return {first_, std::size_t(texels_ * texels_) * std::size_t(views_.count()) * blockSize()};
+    return {first_, std::size_t(layers_) * texelCount() * std::size_t(views_.count()) * blockSize()};
   }
   std::size_t blockSize() const { return std::size_t(channels_) * padded_; }
 
  private:
-  int texels_, bands_, channels_;
+  int texels_, layers_, bands_, channels_;
   ViewSquare views_;
   Rgb colour_;
   std::size_t padded_;

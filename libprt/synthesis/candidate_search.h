@@ -45,6 +45,15 @@ inline Vec2 turnedBy(const Vec2& v, int turn, int symmetry) {
   }
 }
 
+/// The exemplars that a vertex shows something of.
+struct ShownExemplars {
+  static constexpr std::size_t kMost = 4;
+  std::array<const Exemplar*, kMost> exemplar{};
+  std::array<float, kMost> weight{};
+  std::size_t count = 0;
+};
+ShownExemplars exemplarsShown(const PatchExemplars& exemplars, std::uint32_t vertex);
+
 inline float appearanceDistance2(const float* a, const float* b) {
   float sum = 0;
   for (int i = 0; i < kAppearance; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -53,15 +62,16 @@ inline float appearanceDistance2(const float* a, const float* b) {
 
 class CandidateSearch {
  public:
-  /// `level`: null where the mesh is too coarse to tell texels apart; then only going on counts.
-  CandidateSearch(const Exemplar& exemplar, const ExemplarLevel* level, double spacing)
-      : exemplar_(exemplar),
+  /// `level`: of the exemplars; negative where the mesh is too coarse to tell texels apart, then only going
+  /// on counts.
+  CandidateSearch(const PatchExemplars& exemplars, int level, double spacing)
+      : exemplars_(exemplars),
         level_(level),
-        torus_(exemplar.texels),
-        texels2_(exemplar.count()),
+        torus_(exemplars.texels()),
+        texels2_(exemplars.count()),
         inverseSpacing2_(float(1 / (spacing * spacing))) {}
 
-  /// The best coordinates for a vertex that has `own`. `u`: coordinates of all vertices.
+  /// The best coordinates for a vertex. `u`: coordinates of all vertices.
   Vec2 best(std::uint32_t vertex, const Neighbourhoods& around, const std::vector<Vec2>& u,
             const VertexWish* wish);
 
@@ -70,12 +80,13 @@ class CandidateSearch {
   static constexpr float kPrice = 0.06f;        // of not going on, against a distance of 1
   static constexpr float kGoodEnough = 0.004f;  // mean squared distance: nothing better is looked for
   struct Seen {
-    Vec2 offset, expected;    // where it lies; coordinates that would go on from it
-    const float* appearance;  // what it shows
-    std::uint32_t source;     // texel there, in its own turn
+    Vec2 offset, expected;  // where it lies; coordinates that would go on from it
+    std::uint32_t shown;    // texel that it shows
+    std::uint32_t source;   // texel there, in its own turn
     int turn;
   };
   void look(std::uint32_t vertex, const Neighbourhoods& around, const std::vector<Vec2>& u);
+  float difference(std::uint32_t texel, const Seen& s) const;
   float cost(const Vec2& u, float most) const;
   void attempt(const Vec2& u) {
     const float c = cost(u, bestCost_);
@@ -84,8 +95,9 @@ class CandidateSearch {
   void tryMean();
   void trySimilar();
 
-  const Exemplar& exemplar_;
-  const ExemplarLevel* level_;
+  const PatchExemplars& exemplars_;
+  int level_;
+  ShownExemplars shown_;  // by the vertex
   TexelTorus torus_;
   std::size_t texels2_;
   float inverseSpacing2_;

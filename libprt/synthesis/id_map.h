@@ -24,7 +24,9 @@ struct IdMap {
   static constexpr std::uint16_t kEmpty = 65535;
   int size = 0;
   std::vector<std::uint16_t>
-      ids;  ///< [size * size * 2] u, v: floor(65535 u), so below kEmpty; or kEmpty twice
+      ids;         ///< [size * size * 2] u, v: floor(65535 u), so below kEmpty; or kEmpty twice
+  int layers = 0;  ///< patches over the first one, see layer_masks.h
+  std::vector<std::uint8_t> weights;  ///< [size * size * layers] what each shows of a texel, in 255ths
 
   bool empty(std::size_t texel) const { return ids[2 * texel] == kEmpty; }
   /// Patch coordinates in (0, 1), in the middle of the step; (-1, -1) where empty.

@@ -28,13 +28,13 @@ Vec2 goingOn(const Neighbourhoods& around, std::uint32_t slot, const Vec2& from,
 class Synthesis {
  public:
   Synthesis(const MesoMesh& meso, const SurfaceSheets& sheets, std::span<const Vec3> tangents,
-            const Exemplar& exemplar, const SynthesisOptions& options, Job& job)
+            const PatchExemplars& exemplars, const SynthesisOptions& options, Job& job)
       : meso_(meso),
         sheets_(sheets),
         tangents_(tangents),
-        exemplar_(exemplar),
+        exemplars_(exemplars),
         options_(options),
-        torus_(exemplar.texels),
+        torus_(exemplars.texels()),
         job_(job) {}
 
   std::vector<Vec2> run() {
@@ -51,27 +51,27 @@ class Synthesis {
 
  private:
   std::size_t countOf(int level) const { return meso_.levelEnd[std::size_t(level)]; }
-  /// Index into the exemplar's levels, which has the finest first; negative where it has none.
-  const ExemplarLevel* appearanceOf(int level) const {
-    const std::size_t fromFinest = std::size_t(meso_.levels() - 1 - level);
-    return fromFinest < exemplar_.levels.size() ? &exemplar_.levels[fromFinest] : nullptr;
+  /// Index into the exemplars' levels, of which the finest comes first; negative where they have none.
+  int appearanceOf(int level) const {
+    const int fromFinest = meso_.levels() - 1 - level;
+    return fromFinest < exemplars_.levels() ? fromFinest : -1;
   }
   int passesOf(int level) const {
-    if (!appearanceOf(level)) return kCoarsePasses;
+    if (appearanceOf(level) < 0) return kCoarsePasses;
     return level == meso_.levels() - 1 ? options_.passes : std::max(kMiddlePasses, options_.passes);
   }
 
   void doLevel(int level) {
-    const double unit = exemplar_.texels / options_.patchWidth;
+    const double unit = exemplars_.texels() / options_.patchWidth;
     const Neighbourhoods around =
         makeNeighbourhoods(meso_, sheets_, tangents_, options_.symmetry, unit, level, job_);
     const std::size_t known = level == 0 ? 0 : countOf(level - 1);
     goOn(around, known);
-    const double spacing = spacingOf(meso_, level, options_.patchWidth, exemplar_.texels);
-    if (options_.jitter > 0 && appearanceOf(level)) {
+    const double spacing = spacingOf(meso_, level, options_.patchWidth, exemplars_.texels());
+    if (options_.jitter > 0 && appearanceOf(level) >= 0) {
       // The first level that tells texels apart decides what lies beside what: there, anything may come.
-      const bool first = level == 0 || !appearanceOf(level - 1);
-      throwAbout(level, options_.jitter * (first ? 0.5 * exemplar_.texels : spacing));
+      const bool first = level == 0 || appearanceOf(level - 1) < 0;
+      throwAbout(level, options_.jitter * (first ? 0.5 * exemplars_.texels() : spacing));
     }
     const auto sets = independentSets(around.rings);
     for (int pass = 0; pass < passesOf(level); ++pass)
@@ -131,7 +131,7 @@ class Synthesis {
   void correct(const std::vector<std::uint32_t>& set, const Neighbourhoods& around, int level,
                double spacing) {
     parallelFor(job_, 0, set.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      CandidateSearch search(exemplar_, appearanceOf(level), spacing);
+      CandidateSearch search(exemplars_, appearanceOf(level), spacing);
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t p = set[i];
         const VertexWish* wish = options_.wishes.empty() ? nullptr : &options_.wishes[p];
@@ -155,7 +155,7 @@ class Synthesis {
   const MesoMesh& meso_;
   const SurfaceSheets& sheets_;
   std::span<const Vec3> tangents_;
-  const Exemplar& exemplar_;
+  const PatchExemplars& exemplars_;
   const SynthesisOptions& options_;
   TexelTorus torus_;
   Job& job_;
@@ -194,41 +194,57 @@ std::vector<double> exemplarSpacings(const MesoMesh& meso, double patchWidth, in
   return spacings;
 }
 
+bool PatchExemplars::fit(const MesoMesh& meso) const {
+  const auto alike = [this](const Exemplar& e) {
+    return e.texels == texels() && e.turns == turns() && int(e.levels.size()) == levels();
+  };
+  return exemplars.size() <= ShownExemplars::kMost &&
+         std::all_of(exemplars.begin(), exemplars.end(), alike) &&
+         (weights.empty() ? exemplars.size() == 1 : weights.size() == meso.vertexCount() * exemplars.size());
+}
+
 std::vector<Vec2> synthesise(const MesoMesh& meso, const SurfaceSheets& sheets,
-                             std::span<const Vec3> tangents, const Exemplar& exemplar,
+                             std::span<const Vec3> tangents, const PatchExemplars& exemplars,
                              const SynthesisOptions& options, Job& job) {
   if (!(options.patchWidth > 0))
     throw ValueError("the patch has no width", "synthesis.scale", "use a positive number");
-  if (exemplar.turns != options.symmetry || tangents.size() != meso.vertexCount() ||
+  if (!exemplars.fit(meso) || exemplars.turns() != options.symmetry ||
+      tangents.size() != meso.vertexCount() ||
       (!options.wishes.empty() && options.wishes.size() != meso.vertexCount()))
     throw ValueError("mesh, field and exemplar do not fit together", "synthesis", "make them alike");
-  return Synthesis(meso, sheets, tangents, exemplar, options, job).run();
+  return Synthesis(meso, sheets, tangents, exemplars, options, job).run();
 }
 
 SynthesisQuality measureSynthesis(const MesoMesh& meso, const Neighbourhoods& finest,
-                                  const Exemplar& exemplar, std::span<const Vec2> coordinates,
+                                  const PatchExemplars& exemplars, std::span<const Vec2> coordinates,
                                   std::span<const std::uint32_t> chartOf) {
-  const TexelTorus torus(exemplar.texels);
-  const ExemplarLevel* level = exemplar.levels.empty() ? nullptr : &exemplar.levels[0];
+  const TexelTorus torus(exemplars.texels());
+  const bool tells = exemplars.levels() > 0;
+  const double texelsApart = tells ? exemplars.exemplars[0].levels[0].spacing : 1.0;
   double sums[2] = {0, 0}, pairs[2] = {0, 0}, coherent = 0;
-  const float near = float(std::max(1.0, 0.5 * (level ? level->spacing : 1.0)));
+  const float near = float(std::max(1.0, 0.5 * texelsApart));
   UnionFind regions(finest.count());
-  for (std::uint32_t p = 0; p < finest.count(); ++p)
+  for (std::uint32_t p = 0; p < finest.count(); ++p) {
+    const ShownExemplars shown = tells ? exemplarsShown(exemplars, p) : ShownExemplars{};
     for (std::uint32_t slot = finest.rings.start[p]; slot < finest.rings.start[p + 1]; ++slot) {
       const std::uint32_t q = finest.rings.list[slot];
       const Vec2 here = coordinates[p] * torus.size, there = coordinates[q] * torus.size;
       const int turn = finest.turnOf(slot);
       const bool crosses = !chartOf.empty() && chartOf[meso.triangle[p]] != chartOf[meso.triangle[q]];
       ++pairs[crosses];
-      if (level)
+      for (std::size_t k = 0; k < shown.count; ++k) {
+        const ExemplarLevel& level = shown.exemplar[k]->levels[0];
         sums[crosses] += double(
-            appearanceDistance2(level->at(0, torus.texel(here + finest.offset[slot]), exemplar.count()),
-                                level->at(turn, torus.texel(there), exemplar.count())));
+            shown.weight[k] *
+            appearanceDistance2(level.at(0, torus.texel(here + finest.offset[slot]), exemplars.count()),
+                                level.at(turn, torus.texel(there), exemplars.count())));
+      }
       const Vec2 off = torus.shortest(there - finest.offset[slot] - here);
       if (turn != 0 || std::abs(off.x) > near || std::abs(off.y) > near) continue;
       ++coherent;
       regions.join(p, q);
     }
+  }
   std::vector<std::uint32_t> size(finest.count(), 0);
   std::uint32_t largest = 0;
   for (std::uint32_t p = 0; p < finest.count(); ++p) largest = std::max(largest, ++size[regions.find(p)]);
@@ -238,8 +254,7 @@ SynthesisQuality measureSynthesis(const MesoMesh& meso, const Neighbourhoods& fi
   quality.inside = root(sums[0], pairs[0]);
   quality.across = root(sums[1], pairs[1]);
   quality.coherence = pairs[0] + pairs[1] > 0 ? coherent / (pairs[0] + pairs[1]) : 0;
-  const double texelsApart = level ? level->spacing : 1.0;
-  quality.longestRepeat = std::sqrt(double(largest) / 1.155) * texelsApart / exemplar.texels;
+  quality.longestRepeat = std::sqrt(double(largest) / 1.155) * texelsApart / exemplars.texels();
   return quality;
 }
 

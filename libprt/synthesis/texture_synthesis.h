@@ -38,6 +38,23 @@ struct VertexWish {
 /// Vertices whose normal is more than 90 degrees off the nearest vertex' are left alone. Empty for no wishes.
 std::vector<VertexWish> vertexWishes(const MesoMesh& meso, std::span<const PatchWish> wishes, Job& job);
 
+/// What the surface shows: one exemplar, or, where layers of patches are blended (layer_masks.h), several and
+/// what of each vertex each of them shows. All share one set of coordinates, chosen for what shows where.
+struct PatchExemplars {
+  std::span<const Exemplar> exemplars;  ///< alike in texels, turns and spacings
+  std::span<const float> weights = {};  ///< [M, exemplars], add up to 1; empty: the only one is all there is
+
+  PatchExemplars(const Exemplar& only) : exemplars(&only, 1) {}
+  PatchExemplars(std::span<const Exemplar> all, std::span<const float> weightsOf)
+      : exemplars(all), weights(weightsOf) {}
+
+  int texels() const { return exemplars[0].texels; }
+  std::size_t count() const { return exemplars[0].count(); }
+  int turns() const { return exemplars[0].turns; }
+  int levels() const { return int(exemplars[0].levels.size()); }
+  bool fit(const MesoMesh& meso) const;
+};
+
 /// How good a synthesis is. Distances are roots of mean squares; 1 is what two random texels are apart.
 struct SynthesisQuality {
   double distance = 0;  ///< between what a vertex' patch shows at a neighbour's place and what that one shows
@@ -66,15 +83,15 @@ struct SynthesisOptions {
 /// apart.
 std::vector<double> exemplarSpacings(const MesoMesh& meso, double patchWidth, int texels);
 
-/// Patch coordinates of all vertices, [M], in [0, 1)^2. `exemplar` is made with exemplarSpacings() and the
+/// Patch coordinates of all vertices, [M], in [0, 1)^2. Exemplars are made with exemplarSpacings() and the
 /// same symmetry. Throws ValueError when they do not fit, Cancelled.
 std::vector<Vec2> synthesise(const MesoMesh& meso, const SurfaceSheets& sheets,
-                             std::span<const Vec3> tangents, const Exemplar& exemplar,
+                             std::span<const Vec3> tangents, const PatchExemplars& exemplars,
                              const SynthesisOptions& options, Job& job);
 
 /// `chartOf`: chart of each macro triangle; empty = none are told apart.
 SynthesisQuality measureSynthesis(const MesoMesh& meso, const Neighbourhoods& finest,
-                                  const Exemplar& exemplar, std::span<const Vec2> coordinates,
+                                  const PatchExemplars& exemplars, std::span<const Vec2> coordinates,
                                   std::span<const std::uint32_t> chartOf);
 
 }  // namespace prt

@@ -119,6 +119,25 @@ TEST_F(BiscalePassTest, ByTheMeshsOwnCoordinates) {
   expectAgreement(c);
 }
 
+TEST_F(BiscalePassTest, LayersOverEachOther) {
+  for (const int layers : {1, 3})
+    for (const int channels : {1, 3}) {
+      PatchedWorld world(test::sceneOf(test::rock(20)), variedRtt(6, 4, channels));
+      world.cover = test::coverBy(*world.scene, 128, test::byPlace);
+      world.layer(layers);
+      Case c = caseOf(layers == 1 ? "a layer" : "three layers", world, matrices(world.samples.size(), 1));
+      expectAgreement(c);
+      if (channels == 3) continue;
+      auto surface = std::make_shared<BiscaleSurface>(*c.surface);
+      Job job;
+      surface->filter = std::make_shared<PatchFilter>(surface->cover, world.rtt, job);
+      c.surface = surface;
+      c.what = "layers, filtered";
+      c.width = 80, c.height = 60;
+      expectAgreement(c);
+    }
+}
+
 Scene rockOnGround() {
   const auto shared = [](TriMesh mesh) { return std::make_shared<const TriMesh>(std::move(mesh)); };
   Mat4 lower(1);

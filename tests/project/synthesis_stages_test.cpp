@@ -176,6 +176,103 @@ TEST(SynthesisStages, KeysFollowWhatIsRead) {
   EXPECT_EQ(changed("objects[0].patch=false"), "atlas idmap synthesis ");
 }
 
+/// A second patch over part of the vase.
+Recipe layeredVase() {
+  Recipe recipe = small();
+  for (const char* assignment :
+       {"layers[0].name=cloth", "layers[0].patch.model=weave", "layers[0].patch.yarns=2",
+        "layers[0].patch.albedo=0.7,0.2,0.1", "layers[0].spots=0,0.3,0.2 0.3 1; 0.1,0.4,0.2 0.2 0.5"})
+    setByAssignment(recipe, assignment);
+  return recipe;
+}
+
+TEST(SynthesisStages, LayersCoverWhereTheyArePainted) {
+  const Products products = bake(layeredVase()), alone = bake(small());
+  const auto layers = products.get<LayersProduct>("layers");
+  ASSERT_TRUE(layers && layers->tables.size() == 1 && layers->tables[0]->rtt);
+  EXPECT_EQ(layers->tables[0]->rtt->texels, 16);
+  const IdMap& map = *products.get<IdMapProduct>("idmap")->map;
+  ASSERT_EQ(map.layers, 1);
+  const auto covered =
+      std::size_t(std::count_if(map.weights.begin(), map.weights.end(), [](auto w) { return w > 0; }));
+  EXPECT_GT(covered, 30u);
+  EXPECT_LT(covered, map.weights.size() / 2);
+  EXPECT_GT(*std::max_element(map.weights.begin(), map.weights.end()), 250);
+  EXPECT_EQ(alone.get<IdMapProduct>("idmap")->map->layers, 0);
+}
+
+TEST(SynthesisStages, LayersThatShowNothingAreNone) {
+  Pipeline pipeline(nullptr, {});
+  const auto before = pipeline.keys(small());
+  Recipe recipe = layeredVase();
+  recipe.layers[0].spots = " ; ";
+  EXPECT_EQ(pipeline.keys(recipe), before);
+  recipe = layeredVase();
+  recipe.layers[0].patch.model = PatchModel::None;
+  EXPECT_EQ(pipeline.keys(recipe), before);
+  recipe = layeredVase();
+  recipe.synthesis.mapping = PatchMapping::Uv;
+  EXPECT_EQ(contradictions(recipe).size(), 1u);
+  EXPECT_EQ(contradictions(layeredVase()).size(), 0u);
+}
+
+TEST(SynthesisStages, KeysOfLayersFollowWhatIsRead) {
+  Pipeline pipeline(nullptr, {});
+  const auto before = pipeline.keys(layeredVase());
+  const auto changed = [&](const std::string& assignment) {
+    Recipe recipe = layeredVase();
+    setByAssignment(recipe, assignment);
+    std::string names;
+    for (const auto& [stage, key] : pipeline.keys(recipe))
+      if (before.at(stage) != key) names += stage + " ";
+    return names;
+  };
+  EXPECT_EQ(changed("layers[0].spots=0,0.3,0.2 0.1 1"), "idmap synthesis ");
+  EXPECT_EQ(changed("layers[0].patch.yarns=4"), "idmap layers synthesis ");
+  EXPECT_EQ(changed("layers[0].patch.heightmap=builtin:bins"), "") << "a weave has none";
+  EXPECT_EQ(changed("layers[0].name=linen"), "");
+  EXPECT_EQ(changed("patch.depth=0.2"), "idmap patch rtt synthesis ");
+}
+
+TEST(SynthesisStages, LayersSurviveTheProjectFile) {
+  const Products products = bake(layeredVase());
+  const auto made = products.get<LayersProduct>("layers");
+  const auto again = std::dynamic_pointer_cast<const LayersProduct>(LayersProduct::load(made->save()));
+  ASSERT_EQ(again->tables.size(), 1u);
+  EXPECT_EQ(again->tables[0]->rtt->values, made->tables[0]->rtt->values);
+  const auto map = products.get<IdMapProduct>("idmap");
+  const auto read = std::dynamic_pointer_cast<const IdMapProduct>(IdMapProduct::load(map->save()));
+  EXPECT_EQ(read->map->layers, 1);
+  EXPECT_EQ(read->map->weights, map->map->weights);
+  ProductData data = map->save();
+  data.arrays["layers"].shape = {96, 32, 3};
+  EXPECT_THROW(IdMapProduct::load(data), FileError);
+  data = made->save();
+  data.meta = "{}";
+  EXPECT_THROW(LayersProduct::load(data), FileError);
+  data = made->save();
+  data.arrays.erase("values0");
+  EXPECT_THROW(LayersProduct::load(data), FileError);
+  EXPECT_TRUE(std::dynamic_pointer_cast<const LayersProduct>(LayersProduct::load(LayersProduct().save()))
+                  ->tables.empty());
+}
+
+TEST(SynthesisStages, WrongLayersAreNamed) {
+  Recipe recipe = layeredVase();
+  recipe.layers[0].patch.model = PatchModel::Btf;
+  try {
+    bake(recipe);
+    FAIL();
+  } catch (const ValueError& error) {
+    EXPECT_EQ(error.where(), "layers[0].patch.btf");
+  }
+  recipe = layeredVase();
+  recipe.layers[0].spots = "0,0,0 0.1";
+  EXPECT_THROW(bake(recipe), ValueError);
+  recipe.layers.resize(4);
+  EXPECT_THROW(checkRecipe(recipe, ""), ValueError);
+}
+
 TEST(SynthesisStages, SurviveTheProjectFile) {
   const Products products = bake(small());
   const auto made = products.get<SynthesisProduct>("synthesis");
@@ -249,6 +346,12 @@ TEST(SynthesisStages, StrokesAndWishesAreText) {
   ASSERT_EQ(wishes.size(), 1u);
   EXPECT_EQ(wishes[0].place, Vec2(0.25f, 0.75f));
   EXPECT_EQ(parseWishes(wishesToText(wishes))[0].centre, wishes[0].centre);
+  const std::vector<LayerSpot> spots = parseSpots("0,1,2 0.5 1;3,4,5 0.25 0.5");
+  ASSERT_EQ(spots.size(), 2u);
+  EXPECT_EQ(spots[1], (LayerSpot{{3, 4, 5}, 0.25f, 0.5f}));
+  EXPECT_EQ(parseSpots(spotsToText(spots)), spots);
+  for (const char* wrong : {"0,1,2 0.5", "0,1,2 0 1", "0,1,2 1 1.5", "x"})
+    EXPECT_THROW(parseSpots(wrong), ValueError) << wrong;
   for (const char* wrong : {"0,1,2 0.5 0.25,0.75", "0,1,2 0 0.5,0.5 0.1", "x"})
     EXPECT_THROW(parseWishes(wrong), ValueError) << wrong;
 }

@@ -37,6 +37,8 @@ Image plainPicture(const World& w, const Transfer& transfer, const ShRgb& light,
   const std::vector<Rgb> all =
       transfer.form == TransferForm::None ? std::vector<Rgb>() : transferredRadiance(transfer, light);
   const FragmentImage seen = rasterize(mesh, camera, width, height, 2, job);
+  std::vector<Rtt> tables;
+  for (int layer = 0; layer < w.rtt.layers; ++layer) tables.push_back(w.table(std::uint32_t(layer)));
   Image image(width, height, 4);
   for (const FragmentTile& tile : seen.tiles)
     for (int p = 0; p < tile.width * tile.height; ++p)
@@ -67,7 +69,11 @@ Image plainPicture(const World& w, const Transfer& transfer, const ShRgb& light,
         const Vec3 view =
             viewDependent ? Frame{tangent, cross(n, tangent), n}.toLocal(viewer) : Vec3(0, 0, 1);
         const auto [u, v] = w.rtt.texelAt(patch);
-        const Rgb exit = share * max(Rgb(0), w.rtt.exitRadiance(u, v, view, here));
+        Rgb sum(0);
+        const LayerShares shares = w.cover->sharesAt(f.triangle, f.barycentric);
+        for (std::size_t layer = 0; layer < shares.count; ++layer)
+          sum += shares.weight[layer] * tables[shares.layer[layer]].exitRadiance(u, v, view, here);
+        const Rgb exit = share * max(Rgb(0), sum);
         to[0] += exit.x, to[1] += exit.y, to[2] += exit.z;
       }
   return image;
@@ -100,6 +106,38 @@ TEST(Biscale, IsEquationFour) {
         EXPECT_GT(plain.pixel(20, 15)[0], 0.1f);
         EXPECT_LT(worst(fast, plain), 2e-3) << channels << " channels";  // halfs: 5e-4 of about 2
       }
+}
+
+TEST(Biscale, LayersBlendTheirResponses) {
+  for (const int layers : {1, 3})
+    for (const int channels : {1, 3}) {
+      World w(sceneOf(rock(12)), variedRtt(6, 4, channels));
+      w.layer(layers);
+      const Transfer transfer = matrices(w.samples.size(), channels);
+      const ShRgb light = variedLight();
+      const Image fast = w.picture(transfer, light, camera(), 40, 30),
+                  plain = plainPicture(w, transfer, light, camera(), 40, 30);
+      EXPECT_GT(plain.pixel(20, 15)[0], 0.1f);
+      EXPECT_LT(worst(fast, plain), 3e-3) << layers << " layers, " << channels << " channels";
+    }
+}
+
+TEST(PatchCover, TellsWhatEachLayerShows) {
+  IdMap map;
+  map.size = 2, map.layers = 2;
+  map.ids.assign(8, 7);
+  map.weights = {0, 0, 255, 0, 51, 102, 0, 255};
+  const auto shares = [&](std::size_t i) {
+    const LayerShares s = layerShares(map, i);
+    std::vector<std::pair<std::uint32_t, float>> out;
+    for (std::size_t n = 0; n < s.count; ++n) out.emplace_back(s.layer[n], s.weight[n]);
+    return out;
+  };
+  using Shares = std::vector<std::pair<std::uint32_t, float>>;
+  EXPECT_EQ(shares(0), (Shares{{0, 1.0f}}));
+  EXPECT_EQ(shares(1), (Shares{{1, 1.0f}}));
+  EXPECT_EQ(shares(2), (Shares{{0, 102.0f / 255}, {1, 51.0f / 255}, {2, 102.0f / 255}}));
+  EXPECT_EQ(shares(3), (Shares{{2, 1.0f}}));
 }
 
 TEST(Biscale, WithoutTransportTheLightItselfArrives) {

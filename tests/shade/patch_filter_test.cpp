@@ -70,6 +70,50 @@ TEST(PatchFilter, LevelsAreMeansOverTheTexelsOfTheirChart) {
   EXPECT_GT(compared, 300);
 }
 
+/// `cover` with a second patch that shows `part`, in 255ths, of every texel.
+std::shared_ptr<const PatchCover> layered(const Scene& scene, const std::shared_ptr<const PatchCover>& cover,
+                                          const std::function<int(std::size_t)>& part) {
+  auto map = std::make_shared<IdMap>(*cover->map());
+  map->layers = 1;
+  for (std::size_t i = 0; i < map->ids.size() / 2; ++i) map->weights.push_back(std::uint8_t(part(i)));
+  return std::make_shared<PatchCover>(std::shared_ptr<const Atlas>(cover, cover->atlas()), map,
+                                      scene.mesh.triangleCount());
+}
+
+TEST(PatchFilter, LayersAreMixedBeforeTheyAreFiltered) {
+  const Scene scene = sceneOf(rock(12));
+  Rtt rtt = contrastedRtt();
+  const auto cover = coverBy(scene, 64, byPlace);
+  const std::size_t each = rtt.values.size();
+  for (std::size_t i = 0; i < each; ++i) rtt.values.push_back(0.3f * rtt.values[(7 * i + 50) % each]);
+  rtt.layers = 2;
+  Job job;
+  const PatchFilter none(layered(scene, cover, [](std::size_t) { return 0; }), rtt, job),
+      all(layered(scene, cover, [](std::size_t) { return 255; }), rtt, job),
+      some(layered(scene, cover, [](std::size_t) { return 102; }), rtt, job);
+  EXPECT_EQ(none.error(), some.error());
+  const auto texels = std::uint32_t(kTexels * kTexels);
+  for (std::uint32_t t = 0; t < scene.mesh.triangleCount(); ++t) {
+    const FilterPlace place = some.place(t, Vec2(0.3f));
+    const FilterTexels below = none.texelsAround(place), above = all.texelsAround(place),
+                       both = some.texelsAround(place);
+    ASSERT_EQ(both.count, below.count + above.count);
+    for (std::size_t k = 0; k < below.count; ++k) {
+      ASSERT_EQ(above.texel[k], below.texel[k] + texels);
+      ASSERT_EQ(both.texel[2 * k], below.texel[k]);
+      ASSERT_NEAR(both.weight[2 * k], 0.6f * below.weight[k], 1e-5f);
+      ASSERT_EQ(both.texel[2 * k + 1], above.texel[k]);
+      ASSERT_NEAR(both.weight[2 * k + 1], 0.4f * above.weight[k], 1e-5f);
+    }
+    for (const float level : {1.0f, 2.4f, 5.0f}) {
+      PatchFilter::Coefficients a{}, b{}, mixed{};
+      none.add(place, level, 1, a), all.add(place, level, 1, b), some.add(place, level, 1, mixed);
+      for (std::size_t k = 0; k < mixed.size(); ++k)
+        ASSERT_NEAR(mixed[k], 0.6f * a[k] + 0.4f * b[k], 4e-3f) << t << ' ' << level;
+    }
+  }
+}
+
 TEST(PatchFilter, NothingBleedsFromChartToChart) {
   const Scene scene = sceneOf(rock(12));
   const Rtt rtt = contrastedRtt();
@@ -86,7 +130,8 @@ TEST(PatchFilter, NothingBleedsFromChartToChart) {
       const auto [u, v] = rtt.texelAt(idOf(place.chart));
       const std::size_t own = std::size_t(v * kTexels + u);
       const FilterTexels around = filter.texelsAround(place);
-      for (int k = 0; k < 4; ++k) ASSERT_TRUE(around.weight[k] == 0 || around.texel[std::size_t(k)] == own);
+      ASSERT_FALSE(around.empty());
+      for (std::size_t k = 0; k < around.count; ++k) ASSERT_EQ(around.texel[k], own);
       for (const float level : {1.0f, 1.5f, 2.0f, 3.7f, 6.0f}) {
         PatchFilter::Coefficients sum{};
         filter.add(place, level, 1, sum);

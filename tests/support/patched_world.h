@@ -98,6 +98,35 @@ struct PatchedWorld {
     made.plain = plain;
     return made;
   }
+  /// One of the tables.
+  Rtt table(std::uint32_t layer) const {
+    Rtt out = rtt;
+    const std::size_t each = rtt.values.size() / std::size_t(rtt.layers);
+    out.layers = 1;
+    out.values.assign(rtt.values.begin() + std::ptrdiff_t(each * layer),
+                      rtt.values.begin() + std::ptrdiff_t(each * (layer + 1)));
+    return out;
+  }
+  /// With `layers` more tables, whose weights differ from texel to texel of the map.
+  void layer(int layers) {
+    auto map = std::make_shared<IdMap>(*cover->map());
+    map->layers = layers;
+    for (std::uint64_t i = 0; i < map->ids.size() / 2; ++i) {
+      const bool alone = hashUniform(21, i) < 0.3f;  // some show one only
+      for (int k = 0; k < layers; ++k)
+        map->weights.push_back(
+            alone ? (k == int(i % std::uint64_t(layers + 1)) ? 255 : 0)
+                  : std::uint8_t(float(255 / layers) * hashUniform(22, i, std::uint32_t(k))));
+    }
+    cover = std::make_shared<PatchCover>(std::shared_ptr<const Atlas>(cover, cover->atlas()), map,
+                                         scene->mesh.triangles.size());
+    const std::vector<float> first = rtt.values;
+    for (int k = 1; k <= layers; ++k)
+      for (std::size_t i = 0; i < first.size(); ++i)
+        rtt.values.push_back(first[(i + rtt.blockSize() * std::size_t(k)) % first.size()] *
+                             (k == 1 ? 0.4f : 1.3f));
+    rtt.layers = layers + 1;
+  }
   /// With the objects that carry the patch; the others show the scene's materials.
   void carry(const std::vector<bool>& carries) {
     plain = std::make_shared<PlainObjects>(*scene, carries, scene->materials, rtt.bands);

@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace prt {
 namespace {
 
@@ -170,6 +173,65 @@ TEST(TextureSynthesis, PaintedSpotsTakeTheirPartOfThePatch) {
     EXPECT_LT(length(Vec2(shortest(u[i].x - 0.25f), shortest(u[i].y - 0.75f))), 0.2f);
   }
   EXPECT_GT(inside, 20);
+}
+
+/// The second exemplar of a stage, and what shows where.
+struct Layered {
+  std::vector<Exemplar> exemplars;
+  std::vector<float> weights;
+
+  Layered(const Stage& s, const Rtt& second, const std::function<float(const Vec3&)>& part) {
+    Job job;
+    exemplars = {s.exemplar, makeExemplar(second,
+                                          {.turns = s.sym,
+                                           .spacings = exemplarSpacings(s.meso, s.patchWidth, second.texels)},
+                                          job)};
+    for (const Vec3& p : s.meso.positions) weights.push_back(1 - part(p)), weights.push_back(part(p));
+  }
+  PatchExemplars all() const { return {exemplars, weights}; }
+  std::vector<Vec2> make(const Stage& s) const {
+    Job job;
+    SynthesisOptions options;
+    options.patchWidth = s.patchWidth, options.symmetry = s.sym, options.jitter = 0.4;
+    return synthesise(s.meso, s.ready.sheets, s.tangents, all(), options, job);
+  }
+};
+
+TEST(TextureSynthesis, LayersOfOnePatchAreThePatch) {
+  Stage s(makeBuiltinMesh("bird", 0.5f), wavesTable(24), 6000, 0.15);
+  const auto alone = s.make({.jitter = 0.4});
+  EXPECT_EQ(Layered(s, wavesTable(24), [](const Vec3&) { return 0.0f; }).make(s), alone);
+  EXPECT_EQ(Layered(s, wavesTable(24), [](const Vec3&) { return 1.0f; }).make(s), alone);
+  EXPECT_EQ(Layered(s, stripesTable(24), [](const Vec3&) { return 0.0f; }).make(s), alone)
+      << "what shows nothing changes nothing";
+}
+
+TEST(TextureSynthesis, EachPartLooksLikeItsOwnLayer) {
+  Stage s(makeBuiltinMesh("bird", 0.5f), wavesTable(32), 20000, 0.12);
+  const auto smooth = [](const Vec3& p) { return std::clamp(0.5f + 8 * p.x, 0.0f, 1.0f); };
+  const Layered both(s, boardTable(32), smooth);
+  const auto u = both.make(s);
+  const SynthesisQuality q = measureSynthesis(s.meso, s.finest, both.all(), u, {});
+  EXPECT_LT(q.distance, 0.4);
+  // Where one patch shows alone, it looks as good as if it were everywhere.
+  const auto whole = s.make({.jitter = 0.4});
+  const auto distanceWhere = [&](const std::vector<Vec2>& coordinates) {
+    std::vector<std::uint32_t> chart(s.ready.mesh.triangleCount(), 0);
+    std::vector<float> only;
+    for (const Vec3& p : s.meso.positions) only.push_back(smooth(p) == 0 ? 1.0f : 0.0f), only.push_back(0);
+    std::vector<Exemplar> two{s.exemplar, s.exemplar};
+    return measureSynthesis(s.meso, s.finest, {two, only}, coordinates, {}).distance;
+  };
+  EXPECT_LT(distanceWhere(u), 1.15 * distanceWhere(whole));
+}
+
+TEST(TextureSynthesis, RefusesLayersThatDoNotFit) {
+  Stage s(makePlane({.columns = 2, .rows = 2}), wavesTable(24), 3000, 0.3);
+  Layered wrong(s, wavesTable(16), [](const Vec3&) { return 0.5f; });
+  EXPECT_THROW(wrong.make(s), ValueError);
+  Layered few(s, wavesTable(24), [](const Vec3&) { return 0.5f; });
+  few.weights.pop_back();
+  EXPECT_THROW(few.make(s), ValueError);
 }
 
 TEST(TextureSynthesis, StopsWhenCancelledAndRefusesWhatDoesNotFit) {

@@ -79,8 +79,9 @@ bool sameBake(const Recipe& a, const Recipe& b) {
     return false;
   }();
   return !lightsMatter && a.objects == b.objects && a.transfer == b.transfer && a.patch == b.patch &&
-         a.rtt == b.rtt && a.charts == b.charts && a.atlas == b.atlas && a.field == b.field &&
-         a.synthesis == b.synthesis && a.idmap == b.idmap && a.method.name == b.method.name;
+         a.layers == b.layers && a.rtt == b.rtt && a.charts == b.charts && a.atlas == b.atlas &&
+         a.field == b.field && a.synthesis == b.synthesis && a.idmap == b.idmap &&
+         a.method.name == b.method.name;
 }
 
 bool wantedBy(const Recipe& recipe, const std::string& stage) {

@@ -181,7 +181,8 @@ QString editName(const Recipe& recipe, const QString& path, const QString& calle
       return editName(recipe, QStringLiteral("objects[0].") + path, called);
   for (const QString& name : {named(recipe.objects, "objects", QObject::tr("object")),
                               named(recipe.lights, "lights", QObject::tr("light")),
-                              named(recipe.cameras, "cameras", QObject::tr("camera"))})
+                              named(recipe.cameras, "cameras", QObject::tr("camera")),
+                              named(recipe.layers, "layers", QObject::tr("layer"))})
     if (!name.isEmpty()) return name;
   return title;
 }
@@ -194,6 +195,7 @@ std::size_t bytesOf(const Recipe& recipe) {
   for (const LightRecipe& l : recipe.lights)
     bytes += sizeof l + l.name.capacity() + l.path.capacity() + l.mapping.capacity();
   for (const CameraRecipe& c : recipe.cameras) bytes += sizeof c + c.name.capacity();
+  for (const LayerRecipe& l : recipe.layers) bytes += sizeof l + l.name.capacity() + l.spots.capacity();
   return bytes + recipe.method.name.capacity() + recipe.method.window.capacity();
 }
 
