@@ -1,0 +1,1 @@
+// The program whose precompiled headers all tests share: it holds nothing else.
