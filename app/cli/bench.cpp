@@ -1,6 +1,7 @@
 // prt bench: one measurement against its limit or its rival, in one run.
 
 #include "libprt/study/bench.h"
+#include "app/cli/bench_gl.h"
 #include "app/cli/session.h"
 #include "libprt/project/recipe.h"
 
@@ -15,9 +16,15 @@ struct Options {
   bool large = false;
 };
 
+std::vector<BenchInfo> allBenches() {
+  std::vector<BenchInfo> all = benches();
+  all.push_back(glBenchInfo());
+  return all;
+}
+
 std::vector<std::string> benchNames() {
   std::vector<std::string> names;
-  for (const BenchInfo& info : benches()) names.push_back(info.name);
+  for (const BenchInfo& info : allBenches()) names.push_back(info.name);
   return names;
 }
 
@@ -43,10 +50,11 @@ void bench(Session& session, const Options& options) {
     throw UsageError("only bench atlas without a mesh has a large shape", "--large",
                      "use it with bench atlas");
   const BenchResult result =
-      options.large                ? runLargeAtlasBench(session.job())
-      : options.mesh.empty()       ? runBench(options.name, session.job(), options.repetitions)
-      : options.name == "pipeline" ? runPipelineBench(pipelineBenchRecipe(options.mesh), session.job())
-                                   : runAtlasBench(options.mesh, session.job(), options.repetitions);
+      options.name == glBenchInfo().name ? runGlBench(session.job(), options.repetitions)
+      : options.large                    ? runLargeAtlasBench(session.job())
+      : options.mesh.empty()             ? runBench(options.name, session.job(), options.repetitions)
+      : options.name == "pipeline"       ? runPipelineBench(pipelineBenchRecipe(options.mesh), session.job())
+                                         : runAtlasBench(options.mesh, session.job(), options.repetitions);
   session.say(fmt::format("{}: {:.3f} of the limit", result.name, result.ratio));
   session.say(fmt::format("  ours     {:.4g} {}", result.ours.value, result.ours.unit));
   session.say(fmt::format("  against  {:.4g} {} ({})", result.against.value, result.against.unit,
@@ -57,7 +65,7 @@ void bench(Session& session, const Options& options) {
 
 std::string listOfBenches() {
   std::string text = "Benches:\n";
-  for (const BenchInfo& info : benches()) text += fmt::format("  {:<12} {}\n", info.name, info.measures);
+  for (const BenchInfo& info : allBenches()) text += fmt::format("  {:<12} {}\n", info.name, info.measures);
   return text + "\nExample:\n  prt bench bake --json";
 }
 

@@ -76,6 +76,9 @@ void BiscalePass::setSurface(std::shared_ptr<const BiscaleSurface> surface) {
     responses_.upload(surface->responses->halfs(), "radiance transfer texture");
   if (surface->filter && (!before || surface->filter != before->filter)) uploadFilter(*surface->filter);
   if (!before || surface->scene != before->scene || surface->plain != before->plain) uploadPlain(*surface);
+  const bool sameFrames = before && surface->scene == before->scene && surface->frames == before->frames &&
+                          surface->responses->padded() == before->responses->padded();
+  if (transfer_ && !sameFrames) transfer_->forget();
   const std::vector<float> black(surface->shading.size() * 3 * surface->responses->padded(), 0.0f);
   light_.upload(std::span<const float>(black), "light on the patch");
   checkErrors("upload of the patch");
@@ -138,6 +141,22 @@ void BiscalePass::setLight(const SampleSet& samples, const Transfer& transfer, c
   light_.upload(BiscaleLight(*surface_, frames, samples, transfer, light, job).records(),
                 "light on the patch");
   checkErrors("upload of light on the patch");
+}
+
+bool BiscalePass::keepTransfer(const SampleSet& samples, const Transfer& transfer, Job& job) {
+  if (!surface_) return false;
+  const TurnedTransfer turned = turnedTransfer(*surface_, samples, transfer, TransferPass::mostBytes(), job);
+  if (turned.empty()) {
+    if (transfer_) transfer_->forget();
+    return false;
+  }
+  if (!transfer_) transfer_.emplace();
+  transfer_->upload(turned, surface_->shading.size());
+  return true;
+}
+
+void BiscalePass::setLight(const ShRgb& light) {
+  if (surface_ && transfer_ && !transfer_->empty()) transfer_->apply(light, light_);
 }
 
 void BiscalePass::draw(const SurfaceView& view, bool viewDependent) {

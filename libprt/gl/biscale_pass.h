@@ -13,12 +13,14 @@
 #include "libprt/gl/objects.h"
 #include "libprt/gl/program.h"
 #include "libprt/gl/surface_view.h"
+#include "libprt/gl/transfer_pass.h"
 #include "libprt/shade/biscale_view.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/transfer.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace prt::gl {
 
@@ -33,6 +35,13 @@ class BiscalePass {
   /// Light at all frames of the surface, as BiscaleLight has it: ValueError for the form Diffuse and for
   /// other scenes' samples.
   void setLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
+
+  /// Keeps transfer on the graphics card, so that light costs it one product per frame. False where that
+  /// cannot be: other forms than Matrix, more than fits (transfer_pass.h). As long as the surface stays.
+  bool keepTransfer(const SampleSet& samples, const Transfer& transfer, Job& job);
+  bool keepsTransfer() const { return transfer_ && !transfer_->empty(); }
+  /// Light by the transfer that was kept.
+  void setLight(const ShRgb& light);
 
   bool empty() const { return !surface_; }
   const Box3& bounds() const { return bounds_; }
@@ -50,6 +59,7 @@ class BiscalePass {
   std::array<Program, 4> programs_;  // filter + 2 * layers; each made when it is wanted first
   VertexArray array_;
   Buffer positions_, normals_, tangents_, corners_, coordinates_;
+  std::optional<TransferPass> transfer_;  // made for the first transfer that is kept
   BufferTexture light_, responses_, plainResponses_;
   Buffer plainTexels_;
   Texture ids_, layerWeights_;

@@ -5,6 +5,9 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include <iterator>
+#include <vector>
+
 namespace prt::gl {
 
 namespace {
@@ -14,14 +17,29 @@ namespace {
                       "install libegl1 and libgl1-mesa-dri, or render with the CPU");
 }
 
-EGLDisplay surfacelessDisplay() {
-  if (!epoxy_has_egl()) fail("there is no EGL library");
-  EGLDisplay display = EGL_NO_DISPLAY;
+// Displays without a screen: Mesa's, then the cards that drivers name (NVIDIA's on servers), then whatever
+// EGL takes for the default.
+std::vector<EGLDisplay> displays() {
+  std::vector<EGLDisplay> all;
   if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-    display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (display == EGL_NO_DISPLAY) display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-  if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) fail("EGL does not start");
-  return display;
+    all.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
+      epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
+    EGLDeviceEXT devices[16];
+    EGLint count = 0;
+    if (eglQueryDevicesEXT(EGLint(std::size(devices)), devices, &count))
+      for (EGLint i = 0; i < count; ++i)
+        all.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+  }
+  all.push_back(eglGetDisplay(EGL_DEFAULT_DISPLAY));
+  return all;
+}
+
+EGLDisplay startedDisplay() {
+  if (!epoxy_has_egl()) fail("there is no EGL library");
+  for (const EGLDisplay display : displays())
+    if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr)) return display;
+  fail("EGL does not start");
 }
 
 EGLContext createContext(EGLDisplay display) {
@@ -49,7 +67,7 @@ struct HeadlessContext::Impl {
 };
 
 HeadlessContext::HeadlessContext() : impl_(std::make_unique<Impl>()) {
-  impl_->display = surfacelessDisplay();
+  impl_->display = startedDisplay();
   impl_->context = createContext(impl_->display);
   if (impl_->context == EGL_NO_CONTEXT) fail("the driver has no OpenGL 4.5");
   makeCurrent();

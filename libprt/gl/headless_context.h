@@ -1,6 +1,6 @@
 #pragma once
-// An OpenGL 4.5 core context without a window or a display: EGL on the "surfaceless" platform, with
-// the graphics card when there is one and Mesa's software driver when there is none.
+// An OpenGL 4.5 core context without a window or a display: EGL on Mesa's "surfaceless" platform or
+// on a graphics card that its driver names, with Mesa's software driver where there is none.
 
 #include <memory>
 #include <string>

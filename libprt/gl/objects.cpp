@@ -75,6 +75,10 @@ void flipRows(Image& image) {
 
 }  // namespace
 
+void finish() {
+  glFinish();
+}
+
 void checkErrors(const char* where) {
   const GLenum error = glGetError();
   if (error == GL_NO_ERROR) return;

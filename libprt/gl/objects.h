@@ -43,6 +43,9 @@ class Handle {
 /// Throws ResourceError naming `where` when OpenGL has recorded an error since the last call.
 void checkErrors(const char* where);
 
+/// Returns when all that was asked for is drawn.
+void finish();
+
 /// Bytes on the GPU: vertices, indices or storage for shaders.
 class Buffer : public detail::Handle<detail::deleteBuffer> {
  public:
@@ -125,6 +128,8 @@ class BufferTexture : public detail::Handle<detail::deleteTexture> {
     uploadBytes(values.data(), values.size_bytes(), what);
   }
   void bind(unsigned unit) const;
+  /// For shaders that write it.
+  void bindStorage(unsigned binding) const { buffer_.bindStorage(binding); }
 
  private:
   using Handle::Handle;

@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <initializer_list>
 #include <regex>
 #include <sstream>
 
@@ -30,11 +31,16 @@ std::string firstLine(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+GLenum kindOf(const std::string& name) {
+  return name.ends_with(".vert")   ? GL_VERTEX_SHADER
+         : name.ends_with(".comp") ? GL_COMPUTE_SHADER
+                                   : GL_FRAGMENT_SHADER;
+}
+
 // A compiled shader object, deleted with the scope; a linked program keeps what it needs.
 class Shader {
  public:
-  Shader(const ShaderSource& source, const std::string& prelude)
-      : id_(glCreateShader(source.name.ends_with(".vert") ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER)) {
+  Shader(const ShaderSource& source, const std::string& prelude) : id_(glCreateShader(kindOf(source.name))) {
     const std::string text = withPrelude(source.text, prelude);
     const char* pointer = text.c_str();
     glShaderSource(id_, 1, &pointer, nullptr);
@@ -57,6 +63,20 @@ class Shader {
  private:
   GLuint id_;
 };
+
+void link(GLuint program, std::initializer_list<GLuint> shaders, const std::string& name) {
+  for (const GLuint shader : shaders) glAttachShader(program, shader);
+  glLinkProgram(program);
+  for (const GLuint shader : shaders) glDetachShader(program, shader);
+  GLint linked = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked) return;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program, GLsizei(log.size()), &length, log.data());
+  log.resize(std::size_t(length));
+  throw ResourceError(firstLine(log), name, "update the graphics driver");
+}
 
 }  // namespace
 
@@ -86,19 +106,15 @@ Program Program::fromSources(const ShaderSource& vertex, const ShaderSource& fra
                              const std::string& prelude) {
   const Shader vertexShader(vertex, prelude), fragmentShader(fragment, prelude);
   Program program(glCreateProgram());
-  glAttachShader(program.id_, vertexShader.id());
-  glAttachShader(program.id_, fragmentShader.id());
-  glLinkProgram(program.id_);
-  glDetachShader(program.id_, vertexShader.id());
-  glDetachShader(program.id_, fragmentShader.id());
-  GLint linked = 0;
-  glGetProgramiv(program.id_, GL_LINK_STATUS, &linked);
-  if (linked) return program;
-  std::string log(4096, '\0');
-  GLsizei length = 0;
-  glGetProgramInfoLog(program.id_, GLsizei(log.size()), &length, log.data());
-  log.resize(std::size_t(length));
-  throw ResourceError(firstLine(log), vertex.name + " + " + fragment.name, "update the graphics driver");
+  link(program.id_, {vertexShader.id(), fragmentShader.id()}, vertex.name + " + " + fragment.name);
+  return program;
+}
+
+Program Program::compute(const std::string& name) {
+  const Shader shader(embedded(name), {});
+  Program program(glCreateProgram());
+  link(program.id_, {shader.id()}, name);
+  return program;
 }
 
 void Program::use() const {

@@ -32,6 +32,9 @@ class Program : public detail::Handle<detail::deleteProgram> {
   static Program fromSources(const ShaderSource& vertex, const ShaderSource& fragment,
                              const std::string& prelude = {});
 
+  /// A compute shader of the library.
+  static Program compute(const std::string& name);
+
   void use() const;
   /// Uniforms by name; one that the compiler dropped is ignored.
   void set(const char* name, int value);

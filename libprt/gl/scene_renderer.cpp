@@ -91,6 +91,14 @@ void SceneRenderer::setPatchLight(const SampleSet& samples, const Transfer& tran
   if (patch_) patch_->setLight(samples, transfer, light, job);
 }
 
+bool SceneRenderer::keepPatchTransfer(const SampleSet& samples, const Transfer& transfer, Job& job) {
+  return patch_ && patch_->keepTransfer(samples, transfer, job);
+}
+
+void SceneRenderer::setPatchLight(const ShRgb& light) {
+  if (patch_) patch_->setLight(light);
+}
+
 void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
   const bool latLong = map.report().mapping == EnvironmentMapping::LatLong;
   environment_ =

@@ -87,6 +87,10 @@ class SceneRenderer {
   /// The light on it, see BiscalePass::setLight(); black until there is one.
   void setPatchLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
 
+  /// See BiscalePass::keepTransfer(): afterwards light alone is enough, until there is another patch.
+  bool keepPatchTransfer(const SampleSet& samples, const Transfer& transfer, Job& job);
+  void setPatchLight(const ShRgb& light);
+
   /// The map behind the model: lat-long as it is, other mappings resampled to one.
   void setEnvironment(const EnvironmentMap& map);
 

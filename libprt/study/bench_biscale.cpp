@@ -2,57 +2,30 @@
 // matrices of 25 x 25, a weave of 64 x 64 texels and 8 x 8 views, light and view both changing in every
 // frame, against the paper's 14.5 frames a second (Radeon 9700).
 
-#include "libprt/light/light_rig.h"
 #include "libprt/project/laid_patch.h"
-#include "libprt/project/lights.h"
-#include "libprt/project/products.h"
-#include "libprt/shade/live_renderer.h"
 #include "libprt/study/bench_list.h"
-
-#include <cmath>
+#include "libprt/study/biscale_stage.h"
 
 namespace prt {
 namespace {
 
 constexpr double kPaper = 14.5;
-constexpr int kSide = 512;
+constexpr int kSide = BiscaleStage::kSide;
 
-/// What a frame is drawn from, and its parts one by one.
-class Stage512 {
+/// A frame on the CPU, and its parts one by one.
+class Parts {
  public:
-  Stage512(const Recipe& recipe, const Products& products) : recipe_(recipe) {
-    const auto transfer = products.get<TransferProduct>("transfer");
-    scene_.scene = products.get<SceneProduct>("scene")->scene;
-    scene_.samples = products.get<SamplesProduct>("samples")->samples;
-    scene_.transfer = std::shared_ptr<const Transfer>(transfer, &transfer->transfer);
-    scene_.materials = scene_.scene->materials;
-    scene_.patch = laidPatch(products, recipe);
-    EnvironmentCache environments;
-    rig_ = makeLightRig(recipe.lights, ".", environments);
-    LightRig environment;
-    environment.environment = rig_.environment;
-    environment_ = projectLights(environment, scene_.transfer->bands);
-    home_ = frameBox(scene_.scene->mesh.bounds());
-    picture_.width = picture_.height = kSide;
-  }
+  explicit Parts(const BiscaleStage& stage) : stage_(stage) {}
 
-  void step(int frame) {
-    rig_.rotation = 0.05f * float(frame);
-    const float turn = 0.03f * float(frame);
-    const Vec3 d = home_.eye - home_.target;
-    picture_.camera = home_;
-    picture_.camera.eye = home_.target + Vec3(std::cos(turn) * d.x + std::sin(turn) * d.z, d.y,
-                                              std::cos(turn) * d.z - std::sin(turn) * d.x);
+  void raster(Job& job) {
+    view_ = makeBiscaleView(*stage_.scene().patch, stage_.picture().camera, kSide, kSide, {}, job);
   }
-  void light() { scene_.light = lightFor(rig_, environment_, recipe_.method); }
-  void raster(Job& job) { view_ = makeBiscaleView(*scene_.patch, picture_.camera, kSide, kSide, {}, job); }
   void transfer(Job& job) {
-    surface_ =
-        BiscaleLight(*scene_.patch, view_.frames, *scene_.samples, *scene_.transfer, scene_.light, job);
+    const LiveScene& scene = stage_.scene();
+    surface_ = BiscaleLight(*scene.patch, view_.frames, *scene.samples, *scene.transfer, scene.light, job);
   }
-  void draw(Job& job) { renderer_.draw(scene_, picture_, pixels_, job); }
+  void draw(Job& job) { renderer_.draw(stage_.scene(), stage_.picture(), pixels_, job); }
 
-  const LiveScene& scene() const { return scene_; }
   double seenFrames() const { return double(view_.frames.size()); }
   double covered() const {
     double sum = 0;
@@ -62,12 +35,7 @@ class Stage512 {
   }
 
  private:
-  const Recipe& recipe_;
-  LiveScene scene_;
-  LivePicture picture_;
-  LightRig rig_;
-  ShRgb environment_;
-  Camera home_;
+  const BiscaleStage& stage_;
   BiscaleView view_;
   BiscaleLight surface_;
   LiveRenderer renderer_;
@@ -76,36 +44,24 @@ class Stage512 {
 
 }  // namespace
 
-Recipe biscaleBenchRecipe() {
-  Recipe recipe;
-  recipe.objects[0].mesh.path = "builtin:rock";
-  recipe.patch.model = PatchModel::Weave;
-  recipe.method.name = "biscale";
-  recipe.transfer.kind = TransferKind::Matrix;
-  recipe.transfer.rays = 256;  // how exact they are does not change what applying them takes
-  recipe.transfer.bounces = 1;
-  recipe.synthesis.vertices = 120'000;
-  recipe.lights.push_back({.kind = LightKind::Circle});
-  return recipe;
-}
-
 BiscaleFrame biscaleFrame(const Recipe& recipe, const Products& products, int frames, Job& job) {
-  Stage512 stage(recipe, products);
+  BiscaleStage stage(recipe, products);
+  Parts parts(stage);
   std::vector<double> whole, light, raster, transfer;
   for (int frame = 0; frame < frames; ++frame) {
     stage.step(frame);
     light.push_back(secondsOf([&] { stage.light(); }));
-    whole.push_back(light.back() + secondsOf([&] { stage.draw(job); }));
-    raster.push_back(secondsOf([&] { stage.raster(job); }));
-    transfer.push_back(secondsOf([&] { stage.transfer(job); }));
+    whole.push_back(light.back() + secondsOf([&] { parts.draw(job); }));
+    raster.push_back(secondsOf([&] { parts.raster(job); }));
+    transfer.push_back(secondsOf([&] { parts.transfer(job); }));
   }
   return {median(whole),
           median(light),
           median(raster),
           median(transfer),
           double(stage.scene().scene->mesh.vertexCount()),
-          stage.seenFrames(),
-          stage.covered()};
+          parts.seenFrames(),
+          parts.covered()};
 }
 
 BenchResult benchBiscale(Job& job, int repetitions) {

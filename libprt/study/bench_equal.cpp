@@ -7,6 +7,7 @@
 #include "libprt/light/projection.h"
 #include "libprt/project/products.h"
 #include "libprt/study/bench_list.h"
+#include "libprt/study/biscale_stage.h"
 #include "libprt/study/biscale_truth.h"
 #include "libprt/study/figure_kit.h"
 

@@ -50,9 +50,6 @@ struct BenchScene {
 };
 BenchScene benchScene();
 
-/// What the bench "biscale" bakes.
-Recipe biscaleBenchRecipe();
-
 /// Medians over frames of 512 x 512, light and view changing in each, and how much of them is covered.
 struct BiscaleFrame {
   double whole = 0, light = 0, raster = 0, transfer = 0;  ///< seconds

@@ -19,6 +19,7 @@ namespace prt::gl {
 namespace {
 
 using BiscalePassTest = test::GlTest;
+using test::kBands;
 using test::matrices;
 using test::PatchedWorld;
 using test::variedLight;
@@ -136,6 +137,42 @@ TEST_F(BiscalePassTest, LayersOverEachOther) {
       c.width = 80, c.height = 60;
       expectAgreement(c);
     }
+}
+
+// The compute shader's light is the CPU's: what is left are halfs.
+TEST_F(BiscalePassTest, TransferKeptOnTheCardGivesTheSamePicture) {
+  for (const int channels : {1, 3}) {
+    const PatchedWorld world(test::sceneOf(test::rock(20)), variedRtt(6, 4, channels), true);
+    const Transfer transfer = matrices(world.samples.size(), channels);
+    const auto surface = std::make_shared<BiscaleSurface>(world.surface());
+    SceneRenderer renderer;
+    Job job;
+    EXPECT_FALSE(renderer.keepPatchTransfer(world.samples, transfer, job)) << "there is no patch yet";
+    renderer.setScene(*world.scene);
+    renderer.setPatch(surface);
+    const Picture picture{.camera = camera(), .width = 80, .height = 60, .samples = 1};
+    const auto differ = [&](const ShRgb& light) {
+      renderer.setPatchLight(world.samples, transfer, light, job);
+      const Image expected = renderer.render(picture);
+      renderer.setPatchLight(ShRgb(kBands));  // black
+      EXPECT_EQ(renderer.render(picture).rgb(40, 30), Rgb(0));
+      renderer.setPatchLight(light);
+      const Image got = renderer.render(picture);
+      float most = 0;
+      for (std::size_t i = 0; i < got.data.size(); ++i)
+        most = std::max(most, std::abs(got.data[i] - expected.data[i]));
+      EXPECT_GT(expected.rgb(40, 30).x, 0.1f);
+      return most;
+    };
+    ASSERT_TRUE(renderer.keepPatchTransfer(world.samples, transfer, job));
+    EXPECT_LT(differ(variedLight()), 5e-3f);
+    ShRgb fewer(3);  // bands that light lacks are dark
+    std::copy_n(variedLight().c.begin(), 9, fewer.c.begin());
+    EXPECT_LT(differ(fewer), 5e-3f);
+    Transfer none;
+    EXPECT_FALSE(renderer.keepPatchTransfer(world.samples, none, job));
+    EXPECT_THROW(renderer.keepPatchTransfer(world.samples, matrices(3, 1), job), ValueError);
+  }
 }
 
 Scene rockOnGround() {

@@ -9,7 +9,7 @@ using HeadlessContextTest = test::GlTest;
 
 TEST_F(HeadlessContextTest, IsOpenGl45Core) {
   EXPECT_TRUE(contextIsSufficient());
-  EXPECT_NE(describeContext().find("Core Profile"), std::string::npos) << describeContext();
+  EXPECT_EQ(describeContext().substr(0, 2), "4.") << describeContext();
 }
 
 TEST_F(HeadlessContextTest, CanBeMadeAgainAndAgain) {
