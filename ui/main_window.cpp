@@ -16,10 +16,10 @@
 #include "ui/model/session.h"
 #include "ui/viewport/cut_tool.h"
 #include "ui/viewport/light_handles.h"
+#include "ui/viewport/spot_brush.h"
 #include "ui/viewport/stroke_brush.h"
 #include "ui/viewport/view_actions.h"
 #include "ui/viewport/viewport.h"
-#include "ui/viewport/wish_brush.h"
 #include "ui/widgets/chart_view.h"
 #include "ui/widgets/dock_title.h"
 #include "ui/widgets/message_bar.h"
@@ -88,8 +88,8 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
                            [this](const QPointF& at) { return viewport_->pick(at); })),
       strokeBrush_(new StrokeBrush(session.field(), session.painting(),
                                    [this](const QPointF& at) { return viewport_->pick(at); })),
-      wishBrush_(new WishBrush(session.wishes(), session.painting(),
-                               [this](const QPointF& at) { return viewport_->pick(at); })),
+      wishBrush_(wishBrush(session, [this](const QPointF& at) { return viewport_->pick(at); })),
+      layerBrush_(layerBrush(session, [this](const QPointF& at) { return viewport_->pick(at); })),
       message_(new MessageBar(viewport_)),
       recovery_(new RecoveryBar(session.project(), viewport_)),
       strip_(new WorkflowStrip),
@@ -101,6 +101,7 @@ MainWindow::MainWindow(Session& session, bool freshLayout)
   viewport_->addManipulator(cutTool_);
   viewport_->addManipulator(strokeBrush_);
   viewport_->addManipulator(wishBrush_);
+  viewport_->addManipulator(layerBrush_);
   viewport_->addManipulator(lightHandles_);
   setDockOptions(AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -231,7 +232,7 @@ void MainWindow::makeDocks() {
         return none ? ProductStatus::Missing : meso();
       },
       bring(patch));
-  const auto laid = stage({"field", "synthesis", "idmap"});
+  const auto laid = stage({"field", "layers", "synthesis", "idmap"});
   strip_->addStep(
       tr("Synthesis"), tr("The patch laid over the surface."),
       [this, laid] { return showsPatch(session_.document().recipe()) ? laid() : ProductStatus::Missing; },

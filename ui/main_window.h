@@ -13,7 +13,7 @@ class ChartDock;
 class CommandPalette;
 class CutTool;
 class StrokeBrush;
-class WishBrush;
+class SpotBrush;
 class KeysOverlay;
 class Layouts;
 class LightHandles;
@@ -70,7 +70,7 @@ class MainWindow : public QMainWindow {
   LightHandles* lightHandles_;
   CutTool* cutTool_;
   StrokeBrush* strokeBrush_;
-  WishBrush* wishBrush_;
+  SpotBrush *wishBrush_, *layerBrush_;
   ChartDock* chartDock_ = nullptr;
   MessageBar* message_;
   class RecoveryBar* recovery_;

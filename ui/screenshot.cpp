@@ -4,6 +4,7 @@
 #include "ui/model/chart_editor.h"
 #include "ui/model/field_editor.h"
 #include "ui/model/id_view.h"
+#include "ui/model/layer_editor.h"
 #include "ui/model/session.h"
 #include "ui/model/wish_editor.h"
 #include "ui/viewport/viewport.h"
@@ -32,6 +33,7 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
   if (!options.dock.isEmpty()) window.bringToFront(options.dock);
   session.field().setShown(options.shown == u"field");
   session.wishes().setShown(options.shown == u"wishes");
+  session.patchLayers().setShown(options.shown == u"layers");
   session.ids().setShown(options.shown == u"ids");
   QTimer poll;
   int calm = 0;
@@ -41,8 +43,9 @@ int takeScreenshot(QApplication& application, MainWindow& window, Session& sessi
       cut = true;
       session.charts().autoCut();
     }
-    const bool done = cut && session.field().settled() && session.wishes().settled() && session.settled() &&
-                      session.bakes().fresh() && window.viewport().canvas().settled();
+    const bool done = cut && session.field().settled() && session.wishes().settled() &&
+                      session.patchLayers().settled() && session.settled() && session.bakes().fresh() &&
+                      window.viewport().canvas().settled();
     calm = done ? calm + 1 : 0;
     if (calm >= kCalm || !problem.isEmpty()) QApplication::exit();
   });

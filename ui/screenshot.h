@@ -15,7 +15,7 @@ struct ScreenshotOptions {
   QString dock;          ///< brought to the front of its place first; empty leaves the docks as they are
   QString sheet;         ///< "palette" or "keys": opened over the window
   bool autoCut = false;  ///< charts are cut first
-  QString shown;         ///< "field", "wishes" or "ids": lies on the model; empty: none
+  QString shown;         ///< "field", "wishes", "layers" or "ids": lies on the model; empty: none
 };
 
 /// Waits until everything is loaded, baked and drawn to its last pass, writes the window with all that lies

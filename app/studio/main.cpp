@@ -52,7 +52,8 @@ Options parse(const QApplication& application) {
        {QStringLiteral("auto-cut"),
         QStringLiteral("cut charts before the picture is taken; with --dock charts")},
        {QStringLiteral("show"),
-        QStringLiteral("what the picture shows on the model: field, wishes or ids; with --dock synthesis"),
+        QStringLiteral(
+            "what the picture shows on the model: field, wishes, layers or ids; with --dock synthesis"),
         QStringLiteral("NAME")},
        {QStringLiteral("sheet"), QStringLiteral("what the picture shows over the window: palette or keys"),
         QStringLiteral("NAME")},
@@ -84,8 +85,9 @@ Options parse(const QApplication& application) {
   options.screenshot.autoCut = parser.isSet(QStringLiteral("auto-cut"));
   options.screenshot.shown = parser.value(QStringLiteral("show"));
   if (parser.isSet(QStringLiteral("show")) && options.screenshot.shown != u"field" &&
-      options.screenshot.shown != u"wishes" && options.screenshot.shown != u"ids")
-    wrong(QStringLiteral("--show takes field, wishes or ids"));
+      options.screenshot.shown != u"wishes" && options.screenshot.shown != u"layers" &&
+      options.screenshot.shown != u"ids")
+    wrong(QStringLiteral("--show takes field, wishes, layers or ids"));
   options.screenshot.sheet = parser.value(QStringLiteral("sheet"));
   if (parser.isSet(QStringLiteral("sheet")) && options.screenshot.sheet != u"palette" &&
       options.screenshot.sheet != u"keys")

@@ -95,7 +95,7 @@ PolygonSoup parseStl(std::string_view bytes, const MeshSource& source, Job& job)
       throw FileError("holds " + std::to_string(held) + " of " + std::to_string(promised) + " facets",
                       source.name, "the file is cut off; copy or export it again");
     soup = parseBinary(bytes, promised, job);
-    if (!exact) soup.notes.push_back("bytes after the last facet were ignored");
+    if (!exact) soup.notes.emplace_back("bytes after the last facet were ignored");
   }
   soup.source = source.name;
   return soup;

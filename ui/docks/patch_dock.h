@@ -7,10 +7,12 @@
 
 #include <vector>
 
+class QComboBox;
 class QLabel;
 
 namespace prt::ui {
 
+class LayerEditor;
 class MessageBar;
 class PresetGrid;
 class PropertyRow;
@@ -31,20 +33,28 @@ class PatchDock : public DockColumn {
     PropertyRow* row;
     unsigned models;  // of PatchModel, as bits: those that read it
   };
+  QWidget* makeHead();
   Section* makePresets();
+  void makeSections();
+  void refreshLayers();
   Section* makeRows(const QString& title, const std::vector<std::pair<const char*, unsigned>>& paths);
   void refresh();
   void refreshPreview();
   void makePictures();
 
   Session& session_;
+  LayerEditor& layers_;
   PatchPreview preview_;
+  QWidget* head_ = nullptr;
+  QComboBox* which_;
   PresetGrid* presets_;
   MessageBar* message_;
   QLabel* facts_;
   QLabel* warning_;
+  QWidget* sections_ = nullptr;  // the rows of one patch, made anew for another
   Section* reflection_ = nullptr;
   std::vector<Row> rows_;
+  int shownLayer_ = -1;
   bool picturesWanted_ = false;
 };
 

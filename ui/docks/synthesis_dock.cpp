@@ -2,6 +2,7 @@
 
 #include "libprt/project/laid_patch.h"
 #include "ui/docks/bake_footer.h"
+#include "ui/docks/layer_section.h"
 #include "ui/model/field_editor.h"
 #include "ui/model/id_view.h"
 #include "ui/model/session.h"
@@ -26,9 +27,10 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
       look_(session.bakes()),
       shown_(new QCheckBox(tr("Patch on the surface"))),
       map_(new QLabel),
-      footer_(new BakeFooter(session, QStringLiteral("synthesis"),
-                             {QStringLiteral("field"), QStringLiteral("charts"), QStringLiteral("atlas"),
-                              QStringLiteral("synthesis"), QStringLiteral("idmap")})) {
+      footer_(
+          new BakeFooter(session, QStringLiteral("synthesis"),
+                         {QStringLiteral("field"), QStringLiteral("charts"), QStringLiteral("atlas"),
+                          QStringLiteral("layers"), QStringLiteral("synthesis"), QStringLiteral("idmap")})) {
   add(makeShown());
   laying_ = makeRows(tr("Laying"),
                      {"synthesis.mapping", "synthesis.scale", "synthesis.repeat", "synthesis.vertices",
@@ -37,7 +39,8 @@ SynthesisDock::SynthesisDock(Session& session, QWidget* parent)
   makeStrokes();
   makeWishes();
   texture_ = makeRows(tr("Id map"), {"idmap.size", "idmap.neighbours"});
-  for (Section* section : {laying_, direction_, parts_, texture_}) add(section);
+  layers_ = new LayerSection(session_);
+  for (Section* section : {laying_, direction_, parts_, layers_, texture_}) add(section);
   map_->setObjectName(QStringLiteral("idMap"));
   map_->setAlignment(Qt::AlignCenter);
   map_->setToolTip(tr("The place in the patch of every texel of the atlas: u in red, v in green."));
@@ -246,6 +249,7 @@ void SynthesisDock::refresh() {
   for (PropertyRow* row : laidRows_) row->setVisible(!grown);
   direction_->setVisible(grown);
   parts_->setVisible(grown && patch);
+  layers_->setVisible(grown && patch);
   texture_->setVisible(grown);
   refreshResult();
 }

@@ -43,7 +43,8 @@ class SynthesisDock : public DockColumn {
   SynthesisLook look_;
   QCheckBox* shown_;
   PropertyRow *views_ = nullptr, *filter_ = nullptr;
-  Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr, *parts_ = nullptr;
+  Section *laying_ = nullptr, *direction_ = nullptr, *texture_ = nullptr, *parts_ = nullptr,
+          *layers_ = nullptr;
   std::vector<PropertyRow*> grownRows_, laidRows_;
   QLabel* map_;
   QPushButton *draw_ = nullptr, *erase_ = nullptr;

@@ -84,7 +84,7 @@ void TransferDock::refreshProducts() {
     static const QStringList others{QStringLiteral("patch"),  QStringLiteral("rtt"),
                                     QStringLiteral("charts"), QStringLiteral("atlas"),
                                     QStringLiteral("field"),  QStringLiteral("synthesis"),
-                                    QStringLiteral("idmap")};
+                                    QStringLiteral("layers"), QStringLiteral("idmap")};
     return !info.stored || others.contains(info.name);
   });
   for (int row = 0; row < grid->rowCount(); ++row)

@@ -14,7 +14,7 @@ namespace prt::ui {
 
 class Session;
 
-enum class Brush { None, Strokes, Wishes };
+enum class Brush { None, Strokes, Wishes, Layers };
 
 /// What is painted on, with what brushes and pictures of it ask for again and again. Immutable.
 struct PaintSurface {

@@ -1,6 +1,7 @@
 #include "ui/model/patch_presets.h"
 
 #include "libprt/meso/patch_picture.h"
+#include "ui/model/layer_editor.h"
 
 namespace prt::ui {
 
@@ -57,12 +58,13 @@ int patchPresetOf(const PatchOptions& options) {
   return -1;
 }
 
-void applyPatchPreset(Document& document, const PatchPreset& preset) {
+void applyPatchPreset(const LayerEditor& layers, Document& document, const PatchPreset& preset) {
   Recipe next = document.recipe();
-  const PatchOptions before = next.patch;
-  next.patch = preset.options;
-  next.patch.specular = before.specular, next.patch.exponent = before.exponent;
-  next.patch.gloss = before.gloss;
+  PatchOptions& patch = layers.patchIn(next);
+  const PatchOptions before = patch;
+  patch = preset.options;
+  patch.specular = before.specular, patch.exponent = before.exponent;
+  patch.gloss = before.gloss;
   document.edit(QObject::tr("Patch: %1").arg(preset.name.toLower()), next);
 }
 

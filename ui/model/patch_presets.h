@@ -12,6 +12,8 @@
 
 namespace prt::ui {
 
+class LayerEditor;
+
 struct PatchPreset {
   QString name, about;
   PatchOptions options;
@@ -20,8 +22,9 @@ const std::vector<PatchPreset>& patchPresets();
 
 /// The preset that these options are, reflection apart; -1: none.
 int patchPresetOf(const PatchOptions& options);
-/// Shape and texture as in the preset; reflection stays, but where the preset has colours of its own.
-void applyPatchPreset(Document& document, const PatchPreset& preset);
+/// Shape and texture as in the preset, for the patch that is worked on; reflection stays, but where the
+/// preset has colours of its own.
+void applyPatchPreset(const LayerEditor& layers, Document& document, const PatchPreset& preset);
 
 /// Small pictures of them as patchPicture() makes them; `pixels` a side.
 std::vector<Image> patchPictures(int pixels, Job& job);

@@ -58,12 +58,25 @@ PatchPreview::PatchPreview(Document& document, JobRunner& jobs, QObject* parent)
     : QObject(parent), document_(document), jobs_(jobs) {
   connect(&document_, &Document::recipeChanged, this, [this] {
     const Recipe& recipe = document_.recipe();
-    if (recipe.patch != made_ || recipe.rtt.views != views_) request(document_.inGesture());
+    if (options() != made_ || recipe.rtt.views != views_) request(document_.inGesture());
   });
 }
 
+void PatchPreview::setPath(const QString& path) {
+  if (path == path_) return;
+  path_ = path;
+  request(false);
+}
+
+const PatchOptions& PatchPreview::options() const {
+  const Recipe& recipe = document_.recipe();
+  for (std::size_t i = 0; i < recipe.layers.size(); ++i)
+    if (path_ == QStringLiteral("layers[%1].patch").arg(i)) return recipe.layers[i].patch;
+  return recipe.patch;
+}
+
 bool PatchPreview::hasShape() const {
-  const PatchModel model = document_.recipe().patch.model;
+  const PatchModel model = options().model;
   return model != PatchModel::None && model != PatchModel::Btf;
 }
 
@@ -109,14 +122,14 @@ void PatchPreview::start() {
   again_ = false;
   if (!hasShape()) {
     scene_.reset();
-    made_ = document_.recipe().patch;
+    made_ = options();
     picture_ = {};
     facts_.clear(), warning_.clear(), error_.clear();
     Q_EMIT changed();
     return;
   }
   auto task = std::make_shared<Task>();
-  task->options = document_.recipe().patch, task->views = document_.recipe().rtt.views;
+  task->options = options(), task->views = document_.recipe().rtt.views;
   task->folder = document_.folder();
   task->view = view_, task->view.samples = moving_ ? 1 : 3;
   task->width = width_, task->height = height_;

@@ -22,6 +22,9 @@ class PatchPreview : public QObject {
  public:
   PatchPreview(Document& document, JobRunner& jobs, QObject* parent = nullptr);
 
+  /// Which of the recipe's: "patch", or "layers[0].patch". One that is not there is `patch`.
+  void setPath(const QString& path);
+  const QString& path() const { return path_; }
   /// Pictures are made while somebody looks.
   void setWatched(bool watched);
   /// Of the picture, in pixels.
@@ -48,12 +51,14 @@ class PatchPreview : public QObject {
 
  private:
   struct Task;
+  const PatchOptions& options() const;
   void request(bool moving);
   void start();
   void take(const Task& task);
 
   Document& document_;
   JobRunner& jobs_;
+  QString path_ = QStringLiteral("patch");
   PatchView view_;
   int width_ = 0, height_ = 0;
   bool watched_ = false, running_ = false, again_ = false, moving_ = false;

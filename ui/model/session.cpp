@@ -13,6 +13,7 @@
 #include "ui/model/expression.h"
 #include "ui/model/field_editor.h"
 #include "ui/model/id_view.h"
+#include "ui/model/layer_editor.h"
 #include "ui/model/painting.h"
 #include "ui/model/scene_editor.h"
 #include "ui/model/wish_editor.h"
@@ -61,6 +62,7 @@ Session::Session(QObject* parent)
       painting_(std::make_unique<Painting>(*this)),
       field_(std::make_unique<FieldEditor>(*this)),
       wishes_(std::make_unique<WishEditor>(*this)),
+      patchLayers_(std::make_unique<LayerEditor>(*this)),
       ids_(std::make_unique<IdView>(*this)) {
   connect(&document_, &Document::recipeChanged, this, &Session::follow);
   connect(&document_, &Document::stateChanged, this, &Session::finishSky);

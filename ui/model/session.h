@@ -33,6 +33,7 @@ class DefectView;
 class ErrorEstimate;
 class FieldEditor;
 class IdView;
+class LayerEditor;
 class Painting;
 class SceneEditor;
 class WishEditor;
@@ -72,6 +73,7 @@ class Session : public QObject {
   FieldEditor& field() { return *field_; }
   IdView& ids() { return *ids_; }
   WishEditor& wishes() { return *wishes_; }
+  LayerEditor& patchLayers() { return *patchLayers_; }
   DefectView& defects() { return *defects_; }
   ErrorEstimate& errors() { return *errors_; }
   ProjectKeeper& project() { return project_; }
@@ -167,6 +169,7 @@ class Session : public QObject {
   std::unique_ptr<Painting> painting_;
   std::unique_ptr<FieldEditor> field_;
   std::unique_ptr<WishEditor> wishes_;
+  std::unique_ptr<LayerEditor> patchLayers_;
   std::unique_ptr<IdView> ids_;
   SurfacePatch patch_{document_, bakes_, relighter_, jobs_};
 };

@@ -14,7 +14,7 @@ namespace prt::ui {
 /// Who paints the surface; of several the last one is seen.
 enum class PaintOwner { Charts, Ids };
 /// Who marks the surface; later ones lie over earlier ones.
-enum class MarkOwner { Wishes, Field, Defects };
+enum class MarkOwner { Layers, Wishes, Field, Defects };
 
 class SurfaceLayers : public QObject {
   Q_OBJECT
@@ -67,7 +67,7 @@ class SurfaceLayers : public QObject {
  private:
   std::vector<float> values_;
   std::array<SurfacePaint, 2> paints_;               // by owner
-  std::array<std::vector<SurfaceMarks>, 3> marked_;  // by owner
+  std::array<std::vector<SurfaceMarks>, 4> marked_;  // by owner
   std::vector<SurfaceMarks> marks_;
   quint64 valuesVersion_ = 0, paintVersion_ = 0, marksVersion_ = 0;
 };

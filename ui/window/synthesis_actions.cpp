@@ -1,6 +1,7 @@
 #include "ui/window/synthesis_actions.h"
 
 #include "ui/model/field_editor.h"
+#include "ui/model/layer_editor.h"
 #include "ui/model/session.h"
 #include "ui/model/wish_editor.h"
 #include "ui/window/menu_action.h"
@@ -56,8 +57,25 @@ void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()
       addMenuAction(menu, "showParts", tr("Show &wishes"), tr("Where parts of the patch are wished for."),
                     [&wishes] { wishes.setShown(!wishes.shown()); });
   partsShown->setCheckable(true);
+  menu.addSeparator();
+  LayerEditor& layers = session.patchLayers();
+  QAction* addLayer = addMenuAction(menu, "addPatchLayer", tr("Add &layer"),
+                                    tr("A further patch, which shows where it is painted."), [&layers, show] {
+                                      show();
+                                      layers.add();
+                                    });
+  QAction* cover = addMenuAction(
+      menu, "paintLayers", tr("&Paint layer"),
+      tr("Drag on the model: what is painted shows the layer that is selected in the Synthesis dock."),
+      toggle(Brush::Layers));
+  cover->setCheckable(true);
+  cover->setShortcut(QKeySequence(Qt::Key_P));
+  QAction* layersShown =
+      addMenuAction(menu, "showLayers", tr("Show la&yers"), tr("Where each layer is painted."),
+                    [&layers] { layers.setShown(!layers.shown()); });
+  layersShown->setCheckable(true);
   const auto follow = [&session, &field, &wishes, &painting, strokes, erase, all, shown, parts, none,
-                       partsShown] {
+                       partsShown, &layers, addLayer, cover, layersShown] {
     strokes->setChecked(painting.brush() == Brush::Strokes);
     erase->setEnabled(field.selected() >= 0);
     all->setEnabled(!field.strokes().empty());
@@ -66,9 +84,14 @@ void fillSynthesisMenu(QMenu& menu, Session& session, const std::function<void()
     parts->setEnabled(session.document().recipe().patch.model != PatchModel::None);
     none->setEnabled(!wishes.wishes().empty());
     partsShown->setChecked(wishes.shown());
+    addLayer->setEnabled(layers.canAdd());
+    cover->setChecked(painting.brush() == Brush::Layers);
+    cover->setEnabled(layers.selected() != LayerEditor::kPatch);
+    layersShown->setChecked(layers.shown());
   };
   QObject::connect(&field, &FieldEditor::changed, &menu, follow);
   QObject::connect(&wishes, &WishEditor::changed, &menu, follow);
+  QObject::connect(&layers, &LayerEditor::changed, &menu, follow);
   QObject::connect(&session.document(), &Document::recipeChanged, &menu, follow);
   QObject::connect(&painting, &Painting::brushChanged, &menu, follow);
   follow();

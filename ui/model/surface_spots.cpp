@@ -1,4 +1,4 @@
-#include "ui/model/wish_spots.h"
+#include "ui/model/surface_spots.h"
 
 #include "libprt/mesh/cancel_check.h"
 
@@ -9,39 +9,16 @@ namespace prt::ui {
 
 namespace {
 
-constexpr float kSpacing = 0.4f;  // of spots, relative to their radius: a wish is full up to half of it
-constexpr float kCovered = 0.6f;  // a middle within so much of a spot's radius is covered by it
+constexpr float kSpacing = 0.4f;  // of spots, relative to their radius: they are full up to half of it
 constexpr int kSides = 24, kRings = 3;
 
 }  // namespace
 
-bool WishTrail::add(const Vec3& place) {
-  for (const PatchWish& spot : spots_)
-    if (distance(spot.centre, place) < kSpacing * brush_.radius) return false;
-  spots_.push_back(brush_);
-  spots_.back().centre = place;
+bool SpotTrail::add(const Vec3& place) {
+  for (const Vec3& centre : centres_)
+    if (distance(centre, place) < kSpacing * radius_) return false;
+  centres_.push_back(place);
   return true;
-}
-
-std::vector<PatchWish> paintedOver(const std::vector<PatchWish>& wishes,
-                                   const std::vector<PatchWish>& spots) {
-  std::vector<PatchWish> result;
-  for (const PatchWish& wish : wishes) {
-    const bool covered = std::any_of(spots.begin(), spots.end(), [&](const PatchWish& spot) {
-      return wish.radius <= spot.radius * 1.01f &&
-             distance(wish.centre, spot.centre) < kCovered * spot.radius;
-    });
-    if (!covered) result.push_back(wish);
-  }
-  result.insert(result.end(), spots.begin(), spots.end());
-  return result;
-}
-
-std::vector<PatchWish> erasedAround(const std::vector<PatchWish>& wishes, const Vec3& place, float radius) {
-  std::vector<PatchWish> result;
-  for (const PatchWish& wish : wishes)
-    if (distance(wish.centre, place) >= radius) result.push_back(wish);
-  return result;
 }
 
 SurfacePoint nearestPoint(const Surface& surface, const Vec3& place, Job& job) {
@@ -86,6 +63,11 @@ std::vector<Vec3> spotTriangles(const Surface& surface, const SurfacePoint& cent
 Rgb colorOfPart(const Vec2& place) {
   const auto step = [](float x) { return 0.15f + 0.85f * std::round(4 * std::clamp(x, 0.0f, 1.0f)) / 4; };
   return {step(place.x), step(place.y), 0.3f};
+}
+
+Rgb colorOfLayer(int layer) {
+  static const Rgb colors[] = {{0.95f, 0.55f, 0.15f}, {0.2f, 0.65f, 0.95f}, {0.85f, 0.35f, 0.75f}};
+  return colors[std::size_t(std::max(layer, 0)) % std::size(colors)];
 }
 
 }  // namespace prt::ui

@@ -1,6 +1,6 @@
 // Spots that a brush lays on a surface.
 
-#include "ui/model/wish_spots.h"
+#include "ui/model/surface_spots.h"
 
 #include "libprt/mesh/generate.h"
 
@@ -19,41 +19,41 @@ PatchWish spotAt(const Vec3& centre, float radius = 0.1f) {
   return spot;
 }
 
-TEST(WishTrail, LaysSpotsSoNearThatEveryPlaceUnderTheHandIsFullyWishedFor) {
-  WishTrail trail(kBrush);
+TEST(SpotTrail, LaysSpotsSoNearThatEveryPlaceUnderTheHandIsFull) {
+  SpotTrail trail(kBrush.radius);
   int laid = 0;
   for (int i = 0; i <= 1000; ++i) laid += trail.add(Vec3(0.001f * float(i), 0, 0));
-  EXPECT_EQ(std::size_t(laid), trail.spots().size());
+  EXPECT_EQ(std::size_t(laid), trail.centres().size());
   EXPECT_LT(laid, 30) << "few";
   for (int i = 0; i <= 960; ++i) {
     float nearest = 1;
-    for (const PatchWish& spot : trail.spots())
-      nearest = std::min(nearest, distance(spot.centre, Vec3(0.001f * float(i), 0, 0)));
+    for (const Vec3& centre : trail.centres())
+      nearest = std::min(nearest, distance(centre, Vec3(0.001f * float(i), 0, 0)));
     EXPECT_LE(nearest, kBrush.radius / 2) << "strength is 1 up to half of the radius";
   }
-  EXPECT_EQ(trail.spots()[3].place, kBrush.place);
-  EXPECT_FALSE(trail.add(trail.spots()[2].centre)) << "going back over it lays nothing more";
+  EXPECT_FALSE(trail.add(trail.centres()[2])) << "going back over it lays nothing more";
 }
 
-TEST(WishSpots, PaintingOverReplacesWhatIsCoveredAndLeavesTheRest) {
+TEST(SurfaceSpots, PaintingOverReplacesWhatIsCoveredAndLeavesTheRest) {
   const std::vector<PatchWish> before{spotAt(Vec3(0)), spotAt({0.09f, 0, 0}), spotAt({0.01f, 0, 0}, 0.5f)};
-  PatchWish over = spotAt({0.02f, 0, 0});
+  PatchWish over = spotAt(Vec3(0));
   over.place = {0.9f, 0.1f};
-  const std::vector<PatchWish> after = paintedOver(before, {over});
+  const std::vector<PatchWish> after = paintedOver(before, over, {{0.02f, 0, 0}});
   ASSERT_EQ(after.size(), 3u) << "the first is covered, the second only at its rim, the third is larger";
   EXPECT_EQ(after[0].centre, before[1].centre);
   EXPECT_EQ(after[1].radius, 0.5f);
   EXPECT_EQ(after[2].place, over.place);
+  EXPECT_EQ(after[2].centre.x, 0.02f);
 }
 
-TEST(WishSpots, ErasingTakesThoseWhoseMiddleIsUnderTheBrush) {
+TEST(SurfaceSpots, ErasingTakesThoseWhoseMiddleIsUnderTheBrush) {
   const std::vector<PatchWish> before{spotAt(Vec3(0)), spotAt({0.2f, 0, 0})};
   const std::vector<PatchWish> after = erasedAround(before, {0.05f, 0, 0}, 0.1f);
   ASSERT_EQ(after.size(), 1u);
   EXPECT_EQ(after[0].centre.x, 0.2f);
 }
 
-TEST(WishSpots, TrianglesFollowTheSurfaceAndCoverTheSpot) {
+TEST(SurfaceSpots, TrianglesFollowTheSurfaceAndCoverTheSpot) {
   Job job;
   const Surface ball(makeIcosphere({.subdivisions = 4}), job);
   const Vec3 centre = normalize(Vec3(0.3f, 0.8f, 0.5f));
@@ -73,7 +73,7 @@ TEST(WishSpots, TrianglesFollowTheSurfaceAndCoverTheSpot) {
   EXPECT_NEAR(area, 2 * kPi * (1 - std::cos(0.4)), 0.03) << "that of the cap";
 }
 
-TEST(WishSpots, PartsHaveFewColoursThatTellThemApart) {
+TEST(SurfaceSpots, PartsHaveFewColoursThatTellThemApart) {
   std::set<std::pair<float, float>> colors;
   for (int y = 0; y <= 50; ++y)
     for (int x = 0; x <= 50; ++x) {
