@@ -23,5 +23,5 @@ vec3 irradianceHere() { return gl_FrontFacing ? vFront : vBehind; }
 void main() {
   Material material = materials[vObject];
   bool black = !gl_FrontFacing && material.albedo.w == 0.0;
-  colour = vec4(black ? vec3(0.0) : sound(material.albedo.rgb * irradianceHere() / 3.14159265359), 1.0);
+  colour = vec4(black ? vec3(0.0) : sound(material.emission.rgb + material.albedo.rgb * irradianceHere() / 3.14159265359), 1.0);
 }

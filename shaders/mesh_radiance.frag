@@ -74,5 +74,6 @@ void main() {
 #define GLOSSY(i, l) exitGlossy += response[i] * COEFFICIENT(i);
     FOR_EACH_FUNCTION(GLOSSY)
   }
-  colour.rgb = sound(material.albedo.rgb * exitDiffuse + material.specular.rgb * exitGlossy);
+  colour.rgb =
+      sound(material.emission.rgb + material.albedo.rgb * exitDiffuse + material.specular.rgb * exitGlossy);
 }

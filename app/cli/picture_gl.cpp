@@ -2,7 +2,6 @@
 
 #include "libprt/gl/headless_context.h"
 #include "libprt/gl/scene_renderer.h"
-#include "libprt/project/lights.h"
 #include "libprt/shade/surface_light.h"
 
 namespace prt::cli {
@@ -18,13 +17,14 @@ Image relightGl(const BakedScene& baked, const Recipe& recipe, const LightRig& l
     for (Material& material : scene.materials) material.model = MaterialModel::Lambert;
   renderer.setScene(scene, *baked.samples->samples);
   const Transfer& transfer = baked.transfer->transfer;
-  const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
+  const auto [light, surroundings] = sceneLight(baked, recipe, lights, job);
   if (patch) {
     renderer.setPatch(baked.patch);
     renderer.setPatchLight(*baked.samples->samples, transfer, light, job);
   } else {
     renderer.setLight(surfaceLight(transfer, light, *baked.samples->samples));
   }
+  renderer.setSurroundings(surroundings);
   gl::Picture picture;
   picture.camera = camera;
   picture.width = options.width;

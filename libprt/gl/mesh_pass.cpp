@@ -25,6 +25,7 @@ constexpr int kMaxBands = 10;
 struct GpuMaterial {
   Vec4 albedo;
   Vec4 specular;
+  Vec4 emission;
 };
 
 void expectSamples(std::size_t given, std::size_t wanted) {
@@ -106,6 +107,7 @@ void MeshPass::setScene(const Scene& scene, std::span<const std::uint32_t> back,
   front_.upload(std::span<const Rgb>(black));
   behind_.upload(std::span<const Rgb>(black));
   setIrradiance(std::vector<Rgb>(sampleCount_, Rgb(0)));
+  emission_.clear();
   setMaterials(scene.materials);
 
   meshArray_.floats(0, positions_, 3);
@@ -129,6 +131,11 @@ void MeshPass::uploadTexels(const TexelGrid& grid) {
 
 void MeshPass::setMaterials(std::span<const Material> materials) {
   materials_.assign(materials.begin(), materials.end());
+  uploadResponses();
+}
+
+void MeshPass::setEmission(std::span<const Rgb> emission) {
+  emission_.assign(emission.begin(), emission.end());
   uploadResponses();
 }
 
@@ -217,7 +224,9 @@ void MeshPass::uploadResponses() {
         appendResponse(response, tables);
       }
     }
-    packed.push_back({Vec4(m.albedo, m.twoSided ? 1 : 0), Vec4(m.specular, float(table))});
+    const std::size_t object = packed.size();
+    packed.push_back({Vec4(m.albedo, m.twoSided ? 1 : 0), Vec4(m.specular, float(table)),
+                      Vec4(object < emission_.size() ? emission_[object] : Rgb(0), 0)});
   }
   if (tables.empty()) tables.push_back(0);  // a buffer without contents cannot be bound
   materialBuffer_.upload(std::span<const GpuMaterial>(packed));

@@ -28,6 +28,8 @@ class MeshPass {
   void setScene(const Scene& scene, std::span<const std::uint32_t> back, const TexelGrid* texels);
   /// [objects].
   void setMaterials(std::span<const Material> materials);
+  /// [objects]: radiance that reflecting sides send of their own; empty: none. Until the next scene.
+  void setEmission(std::span<const Rgb> emission);
 
   // The light; the last one given counts. See SceneRenderer.
   void setLight(const SurfaceLight& light);
@@ -55,6 +57,7 @@ class MeshPass {
   Buffer positions_, normals_, front_, behind_, objects_, indices_;
   Buffer materialBuffer_, radianceBuffer_, backSamples_, responses_, colours_, texels_;
   std::vector<Material> materials_;
+  std::vector<Rgb> emission_;
   std::vector<std::uint32_t> back_;
   std::vector<Vec2> lobes_;  // of the responses, see GlossyResponse
   Light light_ = Light::Irradiance;

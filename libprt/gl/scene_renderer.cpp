@@ -99,6 +99,17 @@ void SceneRenderer::setPatchLight(const ShRgb& light) {
   if (patch_) patch_->setLight(light);
 }
 
+void SceneRenderer::setSurroundings(const Surroundings& surroundings) {
+  if (!surroundings.empty()) {
+    if (!around_) around_.emplace();
+    if (aroundScene_ != surroundings.scene)
+      around_->setScene(*surroundings.scene, surroundings.samples->back, nullptr);
+    around_->setEmission(surroundings.emission);
+    around_->setLight(surroundings.light);
+  }
+  aroundScene_ = surroundings.scene;
+}
+
 void SceneRenderer::setEnvironment(const EnvironmentMap& map) {
   const bool latLong = map.report().mapping == EnvironmentMapping::LatLong;
   environment_ =
@@ -195,14 +206,18 @@ void SceneRenderer::drawRadiance(const Picture& picture, PixelFormat format, int
   if (picture.background == Background::Environment && any) drawBackground(picture);
 }
 
+// All in one range of depths, so that the nearer one is seen.
 void SceneRenderer::drawSurface(const Picture& picture) {
-  const auto viewOf = [&](const Box3& bounds) {
-    return surfaceView(picture.camera, bounds, picture.width, picture.height, passShift(picture.pass));
-  };
-  if (patch_ && !patch_->empty())
-    patch_->draw(viewOf(patch_->bounds()), picture.viewDependent);
+  const bool patch = patch_ && !patch_->empty(), around = around_ && aroundScene_;
+  Box3 bounds = patch ? patch_->bounds() : mesh_.empty() ? Box3{} : mesh_.bounds();
+  if (around) bounds.extend(around_->bounds().low), bounds.extend(around_->bounds().high);
+  const SurfaceView view =
+      surfaceView(picture.camera, bounds, picture.width, picture.height, passShift(picture.pass));
+  if (patch)
+    patch_->draw(view, picture.viewDependent);
   else if (!mesh_.empty())
-    mesh_.draw(viewOf(mesh_.bounds()));
+    mesh_.draw(view);
+  if (around) around_->draw(view);
 }
 
 // Behind everything: the triangle lies on the far plane and passes where nothing nearer was drawn.

@@ -13,6 +13,7 @@
 #include "libprt/light/light_rig.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/surface_light.h"
+#include "libprt/shade/surroundings.h"
 #include "libprt/shade/tonemap.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
@@ -91,6 +92,10 @@ class SceneRenderer {
   bool keepPatchTransfer(const SampleSet& samples, const Transfer& transfer, Job& job);
   void setPatchLight(const ShRgb& light);
 
+  /// Objects that are seen with the scene, as they are lit. Their geometry is sent again only when it is
+  /// another one.
+  void setSurroundings(const Surroundings& surroundings);
+
   /// The map behind the model: lat-long as it is, other mappings resampled to one.
   void setEnvironment(const EnvironmentMap& map);
 
@@ -111,6 +116,8 @@ class SceneRenderer {
 
   MeshPass mesh_;
   std::optional<BiscalePass> patch_;  // made for the first one
+  std::optional<MeshPass> around_;    // the same
+  std::shared_ptr<const Scene> aroundScene_;
   Program backgroundProgram_, toneProgram_, meanProgram_;
   VertexArray emptyArray_;
   Buffer circles_;

@@ -255,7 +255,7 @@ ExportedFiles exportNpy(const ExportInput& input, const std::filesystem::path& f
   std::vector<Vec3> albedo;
   for (const std::uint32_t o : scene.vertexObject) albedo.push_back(input.recipe.objects[o].material.albedo);
   write("albedo", rows(albedo), "diffuse reflectance, linear Rec.709");
-  const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
+  const ShRgb light = sceneLight(input.baked, input.recipe, input.lights, job).light;
   write("light", rows(light.c), "coefficients of the current lights, index l(l+1)+m");
   writeGloss(input, write);
   if (samples.texels) writeTexels(scene.mesh, samples, write);

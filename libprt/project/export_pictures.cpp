@@ -48,10 +48,10 @@ std::vector<Rgb> atVertices(const TriMesh& mesh, const SampleSet& samples, const
 }
 
 /// Diffuse exit radiance at each vertex.
-std::vector<Rgb> vertexColors(const ExportInput& input, double exposure) {
+std::vector<Rgb> vertexColors(const ExportInput& input, double exposure, Job& job) {
   const Scene& scene = *input.baked.geometry->scene;
   const Transfer& transfer = input.baked.transfer->transfer;
-  const ShRgb light = lightFor(input.lights, transfer.bands, input.recipe.method);
+  const ShRgb light = sceneLight(input.baked, input.recipe, input.lights, job).light;
   const SampleSet& samples = *input.baked.samples->samples;
   std::vector<Rgb> colors = irradiance(transfer, light, samples.shadingNormal);
   if (samples.texels)
@@ -76,12 +76,12 @@ ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& f
   writeImage(folder / "environment.exr", latLong(map, 1024, 512));
   manifest.addFile("environment.exr",
                    "the environment as it is turned, lat-long, top row +Y, centre column -Z");
-  MethodRecipe method = input.recipe.method;
-  method.window = windowOfPictures(method.window);
+  Recipe seen = input.recipe;
+  std::string& window = seen.method.window = windowOfPictures(seen.method.window);
   writeImage(folder / "light_bands.exr",
-             bandLimitedMap(lightFor(input.lights, bands, method), 512, 256).pixels());
+             bandLimitedMap(sceneLight(input.baked, seen, input.lights, job).light, 512, 256).pixels());
   manifest.addFile("light_bands.exr",
-                   "all lights in " + std::to_string(bands) + " bands through the window " + method.window);
+                   "all lights in " + std::to_string(bands) + " bands through the window " + window);
   std::vector<CameraRecipe> cameras = input.recipe.cameras;
   PictureOptions options{960, 540};
   for (const CameraRecipe& camera : cameras) {
@@ -96,7 +96,7 @@ ExportedFiles exportExr(const ExportInput& input, const std::filesystem::path& f
 ExportedFiles exportGltf(const ExportInput& input, const std::filesystem::path& folder, double exposure,
                          Job& job) {
   ExportManifest manifest(folder, "gltf");
-  const std::vector<Rgb> colors = vertexColors(input, exposure);
+  const std::vector<Rgb> colors = vertexColors(input, exposure, job);
   MeshWriteOptions options;
   options.colors = colors;
   options.name = "scene";

@@ -2,6 +2,7 @@
 
 #include "libprt/meso/rtt_layers.h"
 #include "libprt/project/atlas_stages.h"
+#include "libprt/project/captured_objects.h"
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/synthesis_stages.h"
@@ -60,6 +61,7 @@ std::vector<std::string> stagesOfLaidPatch(const Recipe& recipe) {
 std::vector<std::string> stagesOfPicture(const Recipe& recipe) {
   std::vector<std::string> stages = stagesOfLaidPatch(recipe);
   stages.insert(stages.end(), {"scene", "samples", "transfer"});
+  if (hasCaptured(recipe)) stages.push_back("mesh");
   return stages;
 }
 

@@ -28,6 +28,11 @@ void checkRecipe(const Recipe& recipe, const std::string& where) {
   if (std::none_of(recipe.objects.begin(), recipe.objects.end(),
                    [](const ObjectRecipe& o) { return o.visible; }))
     throw ValueError("hides every object", at("objects[0].visible"), "show one at least");
+  if (std::none_of(recipe.objects.begin(), recipe.objects.end(),
+                   [](const ObjectRecipe& o) { return o.visible && !o.captured; }))
+    throw ValueError("leaves nothing to bake: every object that is seen is captured",
+                     at("objects[0].captured"),
+                     "set it to false for the objects that the others stand around");
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     try {
       chartSettingsFromText(recipe.objects[i].charts);

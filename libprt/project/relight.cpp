@@ -1,6 +1,7 @@
 #include "libprt/project/relight.h"
 
 #include "libprt/core/error.h"
+#include "libprt/light/projection.h"
 #include "libprt/project/laid_patch.h"
 #include "libprt/project/lights.h"
 #include "libprt/shade/biscale.h"
@@ -24,6 +25,8 @@ BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::strin
     throw ValueError("holds no baked transfer for its recipe", project, "run prt bake " + project);
   BakedScene baked = bakedScene(products);
   baked.patch = laidPatch(products, recipe);
+  if (const auto meshes = products.get<MeshProduct>("mesh"))
+    baked.surroundings = surroundingsOf(recipe, *meshes);
   return baked;
 }
 
@@ -34,19 +37,28 @@ void expectPatch(const BakedScene& baked) {
         "set patch.model and method.name=biscale, let an object carry it (objects[].patch), and bake");
 }
 
+SceneLight sceneLight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, Job& job) {
+  const int bands = baked.transfer->transfer.bands;
+  const ShRgb environment =
+      lights.environment ? projectEnvironment(*lights.environment, bands) : ShRgb(bands);
+  return SceneLighting().light(lights, environment, recipe.method, baked.surroundings,
+                               baked.geometry->scene->mesh.bounds().center(), job);
+}
+
 Image relight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, const Camera& camera,
               const PictureOptions& options, Job& job) {
   const Scene scene = withMaterials(*baked.geometry->scene, recipe);
   const Transfer& transfer = baked.transfer->transfer;
-  const ShRgb light = lightFor(lights, transfer.bands, recipe.method);
+  const auto [light, surroundings] = sceneLight(baked, recipe, lights, job);
   if (recipe.method.name == "biscale") expectPatch(baked);
   if (recipe.method.name == "biscale")
     return renderBiscale({*baked.patch, *baked.samples->samples, transfer, light,
-                          options.background ? &lights : nullptr, recipe.method.viewDependent},
+                          options.background ? &lights : nullptr, recipe.method.viewDependent, &surroundings},
                          camera, options.width, options.height, options.grid, job);
   RenderInput input{scene,  *baked.samples->samples, transfer, light, shadeMethod(recipe.method.name), {},
                     nullptr};
   if (options.background) input.background = &lights;
+  input.surroundings = &surroundings;
   return render(input, camera, options.width, options.height, options.grid, job);
 }
 

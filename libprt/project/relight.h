@@ -3,6 +3,7 @@
 
 #include "libprt/core/image.h"
 #include "libprt/light/light_rig.h"
+#include "libprt/project/captured_objects.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
 #include "libprt/shade/biscale_view.h"
@@ -22,17 +23,22 @@ struct BakedScene {
   std::shared_ptr<const BiscaleSurface> patch;  ///< on the surface; null: there is none
   int level = 0;                                ///< of the transfer: passes done
   int levels = 0;                               ///< and wanted; a preview when level < levels
+  Surroundings surroundings = {};               ///< captured objects, not lit
 
   bool final() const { return level >= levels; }
 };
 
-/// What a run of the pipeline made. Throws ValueError when transfer is not among it.
+/// What a run of the pipeline made, without patch and surroundings. Throws ValueError when transfer is not
+/// among it.
 BakedScene bakedScene(const Products& products);
 /// What a project holds for its recipe, previews included. Throws ValueError when it holds no transfer.
 BakedScene bakedScene(Pipeline& pipeline, const Recipe& recipe, const std::string& project);
 
 /// Throws ValueError when no patch is laid over the surface: pictures by method.name=biscale need one.
 void expectPatch(const BakedScene& baked);
+
+/// The light on a baked scene and its surroundings, in the bands of its transfer.
+SceneLight sceneLight(const BakedScene& baked, const Recipe& recipe, const LightRig& lights, Job& job);
 
 struct PictureOptions {
   int width = 800;

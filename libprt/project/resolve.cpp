@@ -11,7 +11,7 @@ namespace {
 
 bool anyGlossy(const Recipe& recipe) {
   return std::any_of(recipe.objects.begin(), recipe.objects.end(),
-                     [](const ObjectRecipe& o) { return o.visible && o.material.glossy(); });
+                     [](const ObjectRecipe& o) { return o.visible && !o.captured && o.material.glossy(); });
 }
 
 /// The cheapest form that holds what materials, patch and bounces need.
@@ -123,6 +123,16 @@ void resolveMaterial(Material& material) {
   material.exponent = defaults.exponent;
 }
 
+/// To a bake, an object that is captured is one that is not there.
+void resolveCaptured(ObjectRecipe& object) {
+  object.emission = Rgb(0);
+  if (!object.captured) return;
+  ObjectRecipe hidden;
+  hidden.name = object.name, hidden.mesh = object.mesh;
+  hidden.visible = false;
+  object = hidden;
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const Recipe& recipe) {
@@ -155,6 +165,7 @@ Recipe resolved(const Recipe& recipe) {
   resolvePatch(out);
   resolveSynthesis(out);
   for (ObjectRecipe& object : out.objects) {
+    resolveCaptured(object);
     resolveMesh(object.mesh);
     resolveMaterial(object.material);
   }

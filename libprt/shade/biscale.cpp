@@ -133,8 +133,8 @@ Rgb shadeBiscale(const BiscaleTile& tile, const BiscaleFragment& f, const Biscal
 Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, int height, int grid,
                     Job& job) {
   job.begin("rendering", double(width) * height, "pixels");
-  const BiscaleView view =
-      makeBiscaleView(input.surface, camera, width, height, {grid, input.viewDependent}, job);
+  const BiscaleView view = makeBiscaleView(input.surface, camera, width, height,
+                                           {grid, input.viewDependent, occluderOf(input.surroundings)}, job);
   const BiscaleLight light(input.surface, view.frames, input.samples, input.transfer, input.light, job);
   Image image(width, height, 4);
   parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t t, std::size_t) {
@@ -148,6 +148,7 @@ Image renderBiscale(const BiscaleInput& input, const Camera& camera, int width, 
       to[0] += c.x, to[1] += c.y, to[2] += c.z;
     }
   });
+  addSurroundings(input.surroundings, input.surface.scene->mesh, camera, grid, image, job);
   if (input.background) addBackground(*input.background, camera, grid, image, job);
   job.advance(double(width) * height);
   return image;

@@ -12,6 +12,7 @@
 #include "libprt/core/job.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/shade/biscale_view.h"
+#include "libprt/shade/surroundings.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/transfer.h"
 
@@ -51,6 +52,7 @@ struct BiscaleInput {
   const ShRgb& light;
   const LightRig* background = nullptr;  ///< seen behind the scene; null = black, alpha = coverage
   bool viewDependent = true;
+  const Surroundings* surroundings = nullptr;  ///< objects that are seen with it; null = none
 };
 
 /// Float RGBA, premultiplied. Throws ValueError when sizes do not fit, Cancelled.

@@ -211,7 +211,8 @@ BiscaleSurface::BiscaleSurface(std::shared_ptr<const Scene> sceneOf,
 
 BiscaleView makeBiscaleView(const BiscaleSurface& surface, const Camera& camera, int width, int height,
                             const BiscaleViewOptions& options, Job& job) {
-  const Rasterizer rasterizer(surface.scene->mesh, camera, width, height, options.grid, job);
+  const Rasterizer rasterizer(surface.scene->mesh, camera, width, height, options.grid, job,
+                              options.occluder);
   Maker maker(surface, camera, width, height, options);
   BiscaleView view;
   view.width = width, view.height = height;

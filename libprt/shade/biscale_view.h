@@ -9,6 +9,7 @@
 #include "libprt/shade/patch_cover.h"
 #include "libprt/shade/patch_filter.h"
 #include "libprt/shade/plain_objects.h"
+#include "libprt/shade/raster.h"
 #include "libprt/shade/response_table.h"
 #include "libprt/shade/shading_frames.h"
 #include "libprt/transport/scene.h"
@@ -65,6 +66,7 @@ struct BiscaleView {
 struct BiscaleViewOptions {
   int grid = 1;               ///< grid x grid samples a pixel
   bool viewDependent = true;  ///< false: the patch, not the rest, looks from everywhere as from above
+  Occluder occluder = {};     ///< seen in front of the surface
 };
 
 /// Surfaces seen from behind (two-sided ones too), and places that the id map leaves empty, are black. Throws

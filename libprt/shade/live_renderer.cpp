@@ -42,16 +42,17 @@ LiveView emptyView(int width, int height) {
 }  // namespace
 
 void LiveRenderer::followView(const LiveScene& scene, const LivePicture& picture, Job& job) {
-  ViewKey key{scene.scene,    scene.samples, {},          picture.camera,     picture.width,
-              picture.height, picture.grid,  scene.patch, scene.viewDependent};
+  ViewKey key{scene.scene,    scene.samples, {},          picture.camera,      picture.width,
+              picture.height, picture.grid,  scene.patch, scene.viewDependent, scene.surroundings.scene};
   for (const Material& m : scene.materials) key.twoSided.push_back(m.twoSided);
   if (viewKey_ == key) return;
   viewKey_.reset();
   ++viewNumber_;
   patchView_ = {};
+  const Occluder occluder = occluderOf(&scene.surroundings);
   if (scene.scene && scene.patch) {
     patchView_ = makeBiscaleView(*scene.patch, picture.camera, picture.width, picture.height,
-                                 {picture.grid, scene.viewDependent}, job);
+                                 {picture.grid, scene.viewDependent, occluder}, job);
   } else if (!scene.scene) {
     view_ = emptyView(picture.width, picture.height);
   } else {
@@ -61,9 +62,38 @@ void LiveRenderer::followView(const LiveScene& scene, const LivePicture& picture
         scene.samples->texels->triangles.size() != scene.scene->mesh.triangleCount())
       throw ValueError("transfer was baked for another scene", "renderer", "bake the scene again");
     view_ = makeLiveView(*scene.scene, scene.samples.get(), key.twoSided, picture.camera, picture.width,
-                         picture.height, picture.grid, job);
+                         picture.height, picture.grid, job, occluder);
   }
+  viewAround(scene, picture, job);
   viewKey_ = std::move(key);
+}
+
+/// What is seen of the surroundings; the model's tiles are open where neither is seen.
+void LiveRenderer::viewAround(const LiveScene& scene, const LivePicture& picture, Job& job) {
+  around_ = {};
+  if (!scene.scene || scene.surroundings.empty()) return;
+  const Scene& others = *scene.surroundings.scene;
+  std::vector<bool> twoSided;
+  for (const Material& m : others.materials) twoSided.push_back(m.twoSided);
+  around_ = makeLiveView(others, scene.surroundings.samples.get(), twoSided, picture.camera, picture.width,
+                         picture.height, picture.grid, job, {&scene.scene->mesh, true});
+  const auto close = [&](auto& tiles) {
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+      for (std::size_t p = 0; p < tiles[t].open.size(); ++p) {
+        const float open = tiles[t].open[p] + around_.tiles[t].open[p] - 1;
+        tiles[t].open[p] = open > 1e-4f ? open : 0;  // less than any sample
+      }
+  };
+  scene.patch ? close(patchView_.tiles) : close(view_.tiles);
+}
+
+void LiveRenderer::lightAround(const LiveScene& scene, Job& job) {
+  if (around_.tiles.empty()) return;
+  const Surroundings& around = scene.surroundings;
+  Transfer unshadowed;
+  unshadowed.bands = around.light.bands;
+  aroundLight_ = LiveLight(surfaceLight(unshadowed, around.light, *around.samples, around_.samples), job);
+  aroundMaterials_.set(around.scene->materials, around.light.bands, true, around.emission);
 }
 
 void LiveRenderer::followLight(const LiveScene& scene, Job& job) {
@@ -95,6 +125,7 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
   followView(scene, picture, job);
   const bool patch = scene.scene && scene.patch;
   if (scene.scene) followLight(scene, job);
+  lightAround(scene, job);
   if (scene.scene && !patch)
     materials_.set(scene.materials, light_.bands(), light_.form() != TransferForm::Diffuse);
   if (!display_ || display_->tone().exposure != picture.tone.exposure ||
@@ -107,6 +138,8 @@ void LiveRenderer::draw(const LiveScene& scene, const LivePicture& picture, std:
       thread_local LiveSums sums;
       shown.begin(tiles[t], sums);
       add(tiles[t], sums);
+      if (!around_.tiles.empty())
+        addFragments(around_.tiles[t], around_.around, aroundLight_, aroundMaterials_, *display_, sums);
       shown.write(tiles[t], sums, pixels);
     });
   };

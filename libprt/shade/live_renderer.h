@@ -17,6 +17,7 @@
 #include "libprt/shade/display_table.h"
 #include "libprt/shade/live_shading.h"
 #include "libprt/shade/live_view.h"
+#include "libprt/shade/surroundings.h"
 #include "libprt/shade/tonemap.h"
 #include "libprt/transport/transfer.h"
 
@@ -43,7 +44,8 @@ struct LiveScene {
   Rgb constant{0};
   /// Not null: the scene carries a patch, shown by biscale.h; `materials` have no part in it.
   std::shared_ptr<const BiscaleSurface> patch = {};
-  bool viewDependent = true;  ///< false: the patch looks from everywhere as it does from above
+  bool viewDependent = true;       ///< false: the patch looks from everywhere as it does from above
+  Surroundings surroundings = {};  ///< objects that are seen with the scene, as they are lit
 };
 
 struct LivePicture {
@@ -65,6 +67,8 @@ class LiveRenderer {
  private:
   void followView(const LiveScene& scene, const LivePicture& picture, Job& job);
   void followLight(const LiveScene& scene, Job& job);
+  void viewAround(const LiveScene& scene, const LivePicture& picture, Job& job);
+  void lightAround(const LiveScene& scene, Job& job);
 
   // What the view was made from, and the light.
   struct ViewKey {
@@ -75,6 +79,7 @@ class LiveRenderer {
     int width = 0, height = 0, grid = 0;
     std::shared_ptr<const BiscaleSurface> patch;
     bool viewDependent = true;
+    std::shared_ptr<const Scene> surroundings;
     bool operator==(const ViewKey&) const = default;
   };
   struct LightKey {
@@ -90,6 +95,9 @@ class LiveRenderer {
   LiveView view_;
   LiveLight light_;
   LiveMaterials materials_;
+  LiveView around_;  // without tiles where there is nothing around
+  LiveLight aroundLight_;
+  LiveMaterials aroundMaterials_;
   BiscaleView patchView_;
   BiscaleLight patchLight_;
   std::optional<DisplayTable> display_;

@@ -168,7 +168,7 @@ void shadeBands(const LiveTile& tile, int around, std::size_t first, const LiveL
     }
     const Rgb beyond = reflectedAt(tile, first + lane, around, light);
     for (int c = 0; c < 3; ++c)
-      radiance[lane][c] = sound(material.albedo[c] * beyond[c] +
+      radiance[lane][c] = sound(material.emission[c] + material.albedo[c] * beyond[c] +
                                 sum(material.albedo[c] * dots[c] + material.specular[c] * shine[c]));
   }
 }
@@ -177,7 +177,8 @@ void shadeDiffuse(const LiveTile& tile, int around, std::size_t first, const Liv
                   const LiveMaterials& materials, std::array<Rgb, kLiveLanes>& radiance) {
   for (std::size_t lane = 0; lane < kLiveLanes; ++lane) {
     const Rgb white = reflectedAt(tile, first + lane, around, light);
-    const Rgb exit = materials[tile.object[first + lane]].albedo * white;
+    const LiveMaterials::Row& material = materials[tile.object[first + lane]];
+    const Rgb exit = material.emission + material.albedo * white;
     radiance[lane] = {sound(exit.x), sound(exit.y), sound(exit.z)};
   }
 }
@@ -203,10 +204,11 @@ LiveLight::LiveLight(const SurfaceLight& light, Job& job)
   });
 }
 
-void LiveMaterials::set(const std::vector<Material>& materials, int bands, bool glossy) {
+void LiveMaterials::set(const std::vector<Material>& materials, int bands, bool glossy,
+                        const std::vector<Rgb>& emission) {
   rows_.clear();
   for (const Material& m : materials) {
-    Row row{m.albedo, m.specular, nullptr};
+    Row row{m.albedo, m.specular, emission.empty() ? Rgb(0) : emission[rows_.size()], nullptr};
     if (glossy && m.glossy()) row.table = tableOf(m.exponent, bands).values.data();
     rows_.push_back(row);
   }

@@ -43,11 +43,13 @@ class LiveLight {
 /// Materials and tables of their lobes.
 class LiveMaterials {
  public:
-  /// `glossy` false leaves the lobes away.
-  void set(const std::vector<Material>& materials, int bands, bool glossy);
+  /// `glossy` false leaves the lobes away. `emission` of each object, or empty: none.
+  void set(const std::vector<Material>& materials, int bands, bool glossy,
+           const std::vector<Rgb>& emission = {});
 
   struct Row {
     Rgb albedo{0}, specular{0};
+    Rgb emission{0};
     const float* table = nullptr;  ///< [kRows][padded functions], see weightsAt(); null: not glossy
   };
   const Row& operator[](std::uint32_t object) const { return rows_[object]; }

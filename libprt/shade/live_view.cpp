@@ -71,7 +71,8 @@ struct Maker {
 }  // namespace
 
 LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::vector<bool>& twoSided,
-                      const Camera& camera, int width, int height, int grid, Job& job) {
+                      const Camera& camera, int width, int height, int grid, Job& job,
+                      const Occluder& occluder) {
   const SampleSet none;
   const SampleSet& surface = covering ? *covering : none;
   std::size_t sampleCount = surface.texels ? surface.texels->count : scene.mesh.vertexCount();
@@ -80,7 +81,7 @@ LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::
   Maker maker{
       scene, surface, twoSided, camera, camera.axes().normal, std::vector<std::uint8_t>(sampleCount, 0)};
 
-  const Rasterizer rasterizer(scene.mesh, camera, width, height, grid, job);
+  const Rasterizer rasterizer(scene.mesh, camera, width, height, grid, job, occluder);
   LiveView view;
   view.around = surface.around();
   view.tiles.resize(rasterizer.tileCount());

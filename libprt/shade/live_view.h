@@ -5,6 +5,7 @@
 #include "libprt/core/math.h"
 #include "libprt/shade/camera.h"
 #include "libprt/shade/live_pixels.h"
+#include "libprt/shade/raster.h"
 #include "libprt/transport/sample_set.h"
 #include "libprt/transport/scene.h"
 
@@ -36,8 +37,9 @@ struct LiveView {
 };
 
 /// `covering`: samples that cover the scene's surface; null: its vertices, no backs. `twoSided` [objects]
-/// tells which reflect on their back sides. grid x grid samples a pixel.
+/// tells which reflect on their back sides. grid x grid samples a pixel. What `occluder` hides is left out.
 LiveView makeLiveView(const Scene& scene, const SampleSet* covering, const std::vector<bool>& twoSided,
-                      const Camera& camera, int width, int height, int grid, Job& job);
+                      const Camera& camera, int width, int height, int grid, Job& job,
+                      const Occluder& occluder = {});
 
 }  // namespace prt

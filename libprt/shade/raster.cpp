@@ -141,6 +141,8 @@ struct Rasterizer::Impl {
   int width, height, grid, tilePixels, tilesX, tilesY;
   Projection projection;
   Bins bins;
+  std::unique_ptr<const Rasterizer> occluder;
+  bool occluderWinsTies = false;
 
   Impl(const TriMesh& m, const Camera& c, int w, int h, int g)
       : mesh(m),
@@ -153,11 +155,13 @@ struct Rasterizer::Impl {
         tilesX((w + tilePixels - 1) / tilePixels),
         tilesY((h + tilePixels - 1) / tilePixels) {}
 
+  void hide(std::size_t tile, SampleTile& samples) const;
   void gatherPixel(const SampleTile& samples, int x, int y, FragmentTile& out) const;
   Fragment fragment(const Share& share, int pixelX, int pixelY) const;
 };
 
-Rasterizer::Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job) {
+Rasterizer::Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job,
+                       const Occluder& occluder) {
   if (grid < 1 || grid > 16)
     throw ValueError("sample grid " + std::to_string(grid) + " is out of range", "renderer",
                      "use 1 to 16 a side");
@@ -169,6 +173,9 @@ Rasterizer::Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int
   impl_->projection = Projection(camera, width * grid, height * grid);
   impl_->bins = raster::binTriangles(mesh, impl_->projection, impl_->tilePixels * grid, impl_->tilesX,
                                      impl_->tilesY, job);
+  if (!occluder.mesh) return;
+  impl_->occluder = std::make_unique<const Rasterizer>(*occluder.mesh, camera, width, height, grid, job);
+  impl_->occluderWinsTies = occluder.winsTies;
 }
 
 Rasterizer::~Rasterizer() = default;
@@ -191,6 +198,20 @@ void Rasterizer::drawSamples(std::size_t tile, SampleTile& out) const {
     for (std::uint32_t i = chunk.first[tile]; i < chunk.first[tile + 1]; ++i)
       drawTriangle(chunk.triangles[chunk.items[i]], out.x * r.grid, out.y * r.grid, extentX, extentY,
                    r.projection.bits, out);
+  if (r.occluder) r.hide(tile, out);
+}
+
+/// Forgets the samples where the occluder is nearer.
+void Rasterizer::Impl::hide(std::size_t tile, SampleTile& samples) const {
+  thread_local SampleTile other;
+  occluder->drawSamples(tile, other);
+  const Bins& theirs = occluder->impl_->bins;
+  for (std::size_t i = 0; i < samples.triangle.size(); ++i) {
+    if (samples.triangle[i] == kNoTriangle || other.triangle[i] == kNoTriangle) continue;
+    const double mine = bins.distance(samples.nearness[i]), its = theirs.distance(other.nearness[i]);
+    if (its < mine || (occluderWinsTies && its == mine))
+      samples.triangle[i] = kNoTriangle, samples.nearness[i] = 0;
+  }
 }
 
 Fragment Rasterizer::Impl::fragment(const Share& share, int pixelX, int pixelY) const {
@@ -236,9 +257,9 @@ void Rasterizer::drawFragments(std::size_t tile, SampleTile& samples, FragmentTi
   out.first.push_back(std::uint32_t(out.fragments.size()));
 }
 
-FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid,
-                        Job& job) {
-  const Rasterizer rasterizer(mesh, camera, width, height, grid, job);
+FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job,
+                        const Occluder& occluder) {
+  const Rasterizer rasterizer(mesh, camera, width, height, grid, job, occluder);
   FragmentImage image{width, height, grid, std::vector<FragmentTile>(rasterizer.tileCount())};
   parallelFor(job, 0, image.tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
     thread_local SampleTile samples;

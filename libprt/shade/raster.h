@@ -62,12 +62,20 @@ struct FragmentImage {
   std::vector<FragmentTile> tiles;  ///< cover the image without overlap
 };
 
+/// Another mesh in the same picture: samples where it is nearer show nothing of this one. Two meshes that are
+/// each other's occluders share the picture: every sample is one's or the other's.
+struct Occluder {
+  const TriMesh* mesh = nullptr;  ///< null: none
+  bool winsTies = false;          ///< hides what is as near too
+};
+
 /// Triangles set up and sorted into tiles; tiles can then be drawn independently, from any thread.
 class Rasterizer {
  public:
   /// `grid` in 1..16; width and height >= 1 with grid * max(width, height) <= 65536. Throws ValueError.
-  /// Keeps a reference to `mesh`, whose positions must be finite.
-  Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job);
+  /// Keeps references to `mesh` and the occluder's, whose positions must be finite.
+  Rasterizer(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job,
+             const Occluder& occluder = {});
   ~Rasterizer();
 
   std::size_t tileCount() const;
@@ -82,6 +90,7 @@ class Rasterizer {
 };
 
 /// Draws the whole image.
-FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job);
+FragmentImage rasterize(const TriMesh& mesh, const Camera& camera, int width, int height, int grid, Job& job,
+                        const Occluder& occluder = {});
 
 }  // namespace prt

@@ -167,7 +167,7 @@ Bins binTriangles(const TriMesh& mesh, const Projection& projection, int tileSam
   if (projection.parallel)
     limits.farthest = farthest, limits.perLength = 1 / std::max(farthest - nearest, 1e-30);
   const double unit = double(1 << projection.bits);
-  Bins bins;
+  Bins bins{{}, limits.farthest, limits.perLength};
   bins.chunks.resize((mesh.triangleCount() + kChunk - 1) / kChunk);
   parallelFor(job, 0, mesh.triangleCount(), kChunk, [&](std::size_t begin, std::size_t end) {
     Chunk& chunk = bins.chunks[begin / kChunk];

@@ -52,6 +52,13 @@ struct Chunk {
 
 struct Bins {
   std::vector<Chunk> chunks;
+  // Parallel rays: what SetupTriangle::nearness means, see distance().
+  double farthest = 0, perLength = 0;
+
+  /// Along the axis, of a nearness.
+  double distance(float nearness) const {
+    return perLength > 0 ? farthest - (double(nearness) - 1) / perLength : 1 / double(nearness);
+  }
 };
 
 /// `tileSamples`: a tile's side in samples.

@@ -6,6 +6,7 @@
 #include "libprt/shade/background.h"
 #include "libprt/shade/sound.h"
 #include "libprt/shade/surface_light.h"
+#include "libprt/shade/surroundings.h"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +64,7 @@ struct Needed {
 };
 
 Needed neededSamples(const RenderInput& input, const FragmentImage& view, Job& job) {
+  if (input.irradiance.empty() && input.transfer.form == TransferForm::None) return {};
   std::vector<std::uint8_t> used(input.samples.size(), 0);
   parallelFor(job, 0, view.tiles.size(), 1, [&](std::size_t tile, std::size_t) {
     for (const Fragment& f : view.tiles[tile].fragments) {
@@ -139,6 +141,10 @@ struct PixelResponse {
   }
 };
 
+Rgb emissionOf(const RenderInput& input, const Fragment& f) {
+  return input.emission.empty() ? Rgb(0) : input.emission[input.scene.triangleObject[f.triangle]];
+}
+
 template <class Shader>
 Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Camera& camera,
                  const Shader& shader, Job& job) {
@@ -154,7 +160,7 @@ Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Came
         for (const Fragment& f : tile.pixel(std::size_t(y) * std::size_t(tile.width) + std::size_t(x))) {
           const Surface s = surfaceOf(input, f);
           const float weight = float(f.samples) * part;
-          if (s.material) sum += weight * sound(shader(f, s));
+          if (s.material) sum += weight * sound(shader(f, s) + emissionOf(input, f));
           alpha += weight;
         }
         float* to = image.pixel(tile.x + x, tile.y + y);
@@ -166,7 +172,7 @@ Image shadeTiles(const RenderInput& input, const FragmentImage& view, const Came
   return image;
 }
 
-void expectFit(const RenderInput& input) {
+void expectSamples(const RenderInput& input) {
   const auto refuse = [](const std::string& what) {
     throw ValueError(what, "renderer", "bake the scene again");
   };
@@ -180,13 +186,20 @@ void expectFit(const RenderInput& input) {
   }
   if (!input.irradiance.empty()) {
     if (input.irradiance.size() != samples) refuse("irradiance is not given at every sample");
-    return;
-  }
-  if (input.transfer.form != TransferForm::None && input.transfer.samples != samples)
+  } else if (input.transfer.samples != samples) {
     refuse("transfer was baked for " + std::to_string(input.transfer.samples) + " samples, the scene has " +
            std::to_string(samples));
-  if (input.transfer.bands > kMaxResponseBands && input.transfer.form != TransferForm::Diffuse)
-    refuse("transfer has more than " + std::to_string(kMaxResponseBands) + " bands");
+  }
+}
+
+void expectFit(const RenderInput& input) {
+  if (!input.emission.empty() && input.emission.size() != input.scene.materials.size())
+    throw ValueError("emission is not given for every object", "renderer", "give one for each");
+  if (!input.irradiance.empty() || input.transfer.form != TransferForm::None) expectSamples(input);
+  if (input.irradiance.empty() && input.transfer.bands > kMaxResponseBands &&
+      input.transfer.form != TransferForm::Diffuse)
+    throw ValueError("transfer has more than " + std::to_string(kMaxResponseBands) + " bands", "renderer",
+                     "bake the scene again");
 }
 
 PixelResponse pixelResponse(const RenderInput& input, const Needed& needed, const Camera& camera,
@@ -234,8 +247,13 @@ Image shade(const RenderInput& input, const FragmentImage& view, const Camera& c
 
 Image render(const RenderInput& input, const Camera& camera, int width, int height, int grid, Job& job) {
   job.begin("rendering", double(width) * height, "pixels");
-  const FragmentImage view = rasterize(input.scene.mesh, camera, width, height, grid, job);
-  Image image = shade(input, view, camera, job);
+  const FragmentImage view =
+      rasterize(input.scene.mesh, camera, width, height, grid, job, occluderOf(input.surroundings));
+  RenderInput alone = input;
+  alone.background = nullptr;
+  Image image = shade(alone, view, camera, job);
+  addSurroundings(input.surroundings, input.scene.mesh, camera, grid, image, job);
+  if (input.background) addBackground(*input.background, camera, grid, image, job);
   job.advance(double(width) * height);
   return image;
 }

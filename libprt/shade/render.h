@@ -27,6 +27,8 @@
 
 namespace prt {
 
+struct Surroundings;
+
 enum class ShadeMethod {
   Auto,  ///< Glossy when a material is and the stored form can show it, else Diffuse
   Diffuse,
@@ -44,17 +46,22 @@ struct RenderInput {
   /// light that was computed in another way. Empty = not given.
   std::span<const Rgb> irradiance = {};
   const LightRig* background = nullptr;  ///< seen behind the scene; null = black, alpha = coverage
+  /// Of each object: radiance of its own that its reflecting sides send. Empty = none.
+  std::span<const Rgb> emission = {};
+  /// render(): objects that are seen with the scene, see surroundings.h; null = none.
+  const Surroundings* surroundings = nullptr;
 };
 
 /// Which of Diffuse and Glossy `method` means for this scene and transfer. Throws ValueError for Glossy
 /// with the Diffuse form or given irradiance.
 ShadeMethod resolveMethod(const RenderInput& input);
 
-/// Shades what `view` sees; float RGBA, premultiplied. Work is proportional to what is seen: transfer is
+/// Shades what `view` sees; float RGBA, premultiplied. For the form None `samples` tell no more than which
+/// places have a back side. Work is proportional to what is seen: transfer is
 /// applied only at samples of visible triangles. Throws ValueError when sizes or bands do not match.
 Image shade(const RenderInput& input, const FragmentImage& view, const Camera& camera, Job& job);
 
-/// Rasterises with grid x grid samples per pixel, then shades.
+/// Rasterises with grid x grid samples per pixel, then shades, and adds surroundings and background.
 Image render(const RenderInput& input, const Camera& camera, int width, int height, int grid, Job& job);
 
 }  // namespace prt
