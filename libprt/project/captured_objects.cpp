@@ -7,10 +7,6 @@ namespace {
 
 constexpr int kMostBandsAround = 10;  // of the light on the surroundings
 
-bool isCaptured(const ObjectRecipe& object) {
-  return object.visible && object.captured;
-}
-
 ShRgb firstBands(const ShRgb& light, int bands) {
   ShRgb out(std::min(bands, light.bands));
   std::copy_n(light.c.begin(), out.c.size(), out.c.begin());
@@ -18,6 +14,10 @@ ShRgb firstBands(const ShRgb& light, int bands) {
 }
 
 }  // namespace
+
+bool isCaptured(const ObjectRecipe& object) {
+  return object.visible && object.captured;
+}
 
 bool hasCaptured(const Recipe& recipe) {
   return std::any_of(recipe.objects.begin(), recipe.objects.end(), isCaptured);
@@ -28,15 +28,16 @@ Surroundings surroundingsOf(const Recipe& recipe, const MeshProduct& meshes) {
   const auto nothing = std::make_shared<const TriMesh>();
   std::vector<SceneObject> objects;
   Surroundings out;
+  bool any = false;
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     const ObjectRecipe& object = recipe.objects[i];
-    const bool captured = isCaptured(object);
-    Material material = object.material;
-    if (recipe.method.name == "diffuse") material.model = MaterialModel::Lambert;
+    const bool captured = isCaptured(object) && meshes.meshes[i];
     objects.push_back({object.name, captured ? meshes.meshes[i] : nothing,
-                       captured ? object.transform.matrix() : Mat4(1.0f), material});
+                       captured ? object.transform.matrix() : Mat4(1.0f), object.material});
     out.emission.push_back(object.emission);
+    any = any || (captured && meshes.meshes[i]->triangleCount() > 0);
   }
+  if (!any) return {};
   out.scene = std::make_shared<const Scene>(flattenScene(objects));
   out.samples = bareSamples(*out.scene);
   return out;

@@ -13,11 +13,12 @@
 
 namespace prt {
 
-/// Whether the recipe has any that are seen.
+/// Whether the object stands around the others, and is seen.
+bool isCaptured(const ObjectRecipe& object);
 bool hasCaptured(const Recipe& recipe);
-/// They, as the recipe has them now, not lit yet; objects keep their numbers. A copy of their meshes: a
-/// millisecond or so. Nothing where there are none or the meshes are another recipe's. Throws as
-/// flattenScene() does.
+/// All that are, as the recipe has them now, not lit yet; objects keep their numbers. A copy of their meshes:
+/// a millisecond or so. Null meshes are left out. Nothing where nothing is left, or the meshes are not as
+/// many as the objects. Throws as flattenScene() does.
 Surroundings surroundingsOf(const Recipe& recipe, const MeshProduct& meshes);
 
 /// What surfaces are lit with.

@@ -45,6 +45,7 @@ void ObjectSections::rebuild() {
   column->addWidget(makeTransform(base + QStringLiteral("transform.")));
   column->addWidget(makeMesh(base + QStringLiteral("mesh.")));
   column->addWidget(makePatch(base));
+  column->addWidget(makeSurroundings(base));
   layout()->addWidget(rows_);
   refresh();
 }
@@ -110,12 +111,23 @@ QWidget* ObjectSections::makePatch(const QString& base) {
   return section;
 }
 
+QWidget* ObjectSections::makeSurroundings(const QString& base) {
+  auto* section = new Section(tr("Surroundings"));
+  section->add(new PropertyRow(session_.document(), base + QStringLiteral("captured"), tr("Captured")));
+  emission_ = new PropertyRow(session_.document(), base + QStringLiteral("emission"), tr("Emission"));
+  section->add(emission_);
+  section->setOpen(aroundOpen_);
+  connect(section, &Section::toggled, this, [this](bool open) { aroundOpen_ = open; });
+  return section;
+}
+
 void ObjectSections::refresh() {
   const ObjectRecipe* object = selected(session_);
   if (object && isBuiltin(object->mesh.path) != builtin_) return rebuild();
   const bool known = bool(session_.sceneEditor().meshOf(session_.selectedObject()));
   rest_->setEnabled(known);
   centre_->setEnabled(known);
+  emission_->setVisible(object && object->captured);
   if (object) size_->setValue(double(sizeOf(object->transform)));
 }
 

@@ -1,5 +1,6 @@
 #include "ui/docks/scene_dock.h"
 
+#include "libprt/project/captured_objects.h"
 #include "ui/docks/mesh_report.h"
 #include "ui/docks/object_sections.h"
 #include "ui/model/expression.h"
@@ -217,7 +218,7 @@ void SceneDock::refresh() {
   const QSignalBlocker quiet(objects_);
   const Recipe& recipe = session_.document().recipe();
   const auto& scene = session_.relighter().scene();
-  const std::vector<Counts> counts = scene ? countsOf(*scene) : std::vector<Counts>{};
+  std::vector<Counts> counts = scene ? countsOf(*scene) : std::vector<Counts>{};
   const bool sameScene = counts.size() == recipe.objects.size();
   while (objects_->topLevelItemCount() > int(recipe.objects.size())) delete objects_->takeTopLevelItem(0);
   while (objects_->topLevelItemCount() < int(recipe.objects.size())) {
@@ -231,6 +232,10 @@ void SceneDock::refresh() {
     item->setText(0, QString::fromStdString(recipe.objects[i].name));
     item->setToolTip(0, QString::fromStdString(recipe.objects[i].mesh.path));
     showEye(*item, recipe.objects[i].visible);
+    if (isCaptured(recipe.objects[i]) && sameScene) {
+      const ObjectMesh found = session_.sceneEditor().meshOf(int(i));
+      if (found) counts[i] = {qint64(found.mesh().vertexCount()), qint64(found.mesh().triangleCount())};
+    }
     const bool counted = sameScene && recipe.objects[i].visible;
     item->setText(1, counted ? formatCount(counts[i].vertices) : QStringLiteral("\u2013"));
     item->setText(2, counted ? formatCount(counts[i].triangles) : QStringLiteral("\u2013"));

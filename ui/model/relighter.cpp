@@ -27,7 +27,7 @@ bool sameLights(const LightRig& a, const LightRig& b) {
 
 Backdrop makeBackdrop(const std::shared_ptr<const EnvironmentMap>& map, Job& job) {
   if (!map) return {};
-  Backdrop backdrop{map, nullptr};
+  Backdrop backdrop{map, nullptr, std::make_shared<const EnvironmentPoints>(*map, job)};
   if (map->report().mapping != EnvironmentMapping::LatLong)
     backdrop.sharp =
         std::make_shared<EnvironmentMap>(toLatLong(*map, kBackdropWidth, kBackdropWidth / 2, job));
@@ -40,6 +40,7 @@ void Relighter::setScene(std::shared_ptr<const Scene> scene) {
   if (scene == scene_) return;
   const bool same = scene && scene_ && sameGeometry(*scene, *scene_);
   scene_ = std::move(scene);
+  middle_ = scene_ ? scene_->mesh.bounds().center() : Vec3(0);
   if (!same) {
     samples_.reset();
     nextSamples_.reset();
@@ -81,6 +82,7 @@ void Relighter::setEnvironment(std::shared_ptr<const EnvironmentMap> map, ShRgb 
   rig_.environment = std::move(map);
   environmentCoefficients_ = std::move(coefficients);
   backdrop_ = std::move(backdrop);
+  lighting_.know(rig_.environment, backdrop_.points);
   ++environmentVersion_;
   touchLight();
   Q_EMIT environmentChanged();
@@ -103,6 +105,18 @@ void Relighter::setMaterials(std::vector<Material> materials) {
   Q_EMIT changed();
 }
 
+void Relighter::setSurroundings(Surroundings surroundings) {
+  if (surroundings.empty() && surroundings_.empty()) return;
+  surroundings_ = std::move(surroundings);
+  touchLight();
+}
+
+void Relighter::setEmission(std::vector<Rgb> emission) {
+  if (surroundings_.empty() || emission.size() != surroundings_.emission.size()) return;
+  surroundings_.emission = std::move(emission);
+  touchLight();
+}
+
 void Relighter::setPatch(std::shared_ptr<const BiscaleSurface> patch) {
   if (patch == patch_ || (patch && (!scene_ || !sameGeometry(*patch->scene, *scene_)))) return;
   patch_ = std::move(patch);
@@ -114,12 +128,13 @@ std::shared_ptr<const BiscaleSurface> Relighter::shownPatch() const {
   return method_.name == "biscale" && held ? patch_ : nullptr;
 }
 
-const ShRgb& Relighter::light() {
+const SceneLight& Relighter::lit() {
   if (std::exchange(lightOf_, lightVersion_) == lightVersion_) return light_;
   ShRgb environment(bands());
   const std::size_t known = std::min(environment.c.size(), environmentCoefficients_.c.size());
   std::copy_n(environmentCoefficients_.c.begin(), known, environment.c.begin());
-  return light_ = lightFor(rig_, environment, method_);
+  Job patient;
+  return light_ = lighting_.light(rig_, environment, method_, surroundings_, middle_, patient);
 }
 
 ShRgb Relighter::wholeLight() const {

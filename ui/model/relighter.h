@@ -6,6 +6,7 @@
 #include "libprt/core/job.h"
 #include "libprt/light/light_rig.h"
 #include "libprt/material/material.h"
+#include "libprt/project/captured_objects.h"
 #include "libprt/project/recipe.h"
 #include "libprt/shade/biscale_view.h"
 #include "libprt/shade/surface_light.h"
@@ -20,9 +21,11 @@
 
 namespace prt::ui {
 
-/// An environment as it stands behind the model, both lat-long.
+/// An environment as it stands behind the model, both lat-long, and as points of light; null: made when they
+/// are needed.
 struct Backdrop {
   std::shared_ptr<const EnvironmentMap> sharp, blurred;
+  std::shared_ptr<const EnvironmentPoints> points = {};
 };
 /// Resamples maps in other mappings, and blurs: too long for the interface where the map is large.
 Backdrop makeBackdrop(const std::shared_ptr<const EnvironmentMap>& map, Job& job);
@@ -44,6 +47,10 @@ class Relighter : public QObject {
   /// All lights but the environment's map, which stays, and the window that keeps them from ringing.
   void setLights(const LightRig& rig, const MethodRecipe& method = {});
   void setMaterials(std::vector<Material> materials);
+  /// Objects around the scene, not lit: they light it and are seen with it.
+  void setSurroundings(Surroundings surroundings);
+  /// The same ones shine otherwise.
+  void setEmission(std::vector<Rgb> emission);
   /// The patch on the surface; null: none. It goes with its scene.
   void setPatch(std::shared_ptr<const BiscaleSurface> patch);
 
@@ -60,8 +67,10 @@ class Relighter : public QObject {
   std::shared_ptr<const BiscaleSurface> shownPatch() const;
   int bands() const { return transfer_ ? transfer_->bands : kUnshadowedBands; }
 
-  /// Coefficients of all lights, bands() bands.
-  const ShRgb& light();
+  /// Coefficients of all lights, and of what stands around, bands() bands.
+  const ShRgb& light() { return lit().light; }
+  /// What stands around the scene, lit.
+  const Surroundings& surroundings() { return lit().surroundings; }
   /// All lights as they are, neither cut to bands() nor windowed: in as many bands as the environment is
   /// known in.
   ShRgb wholeLight() const;
@@ -84,6 +93,7 @@ class Relighter : public QObject {
  private:
   static constexpr int kUnshadowedBands = 5;
   void touchLight();
+  const SceneLight& lit();
   bool shadowed() const { return transfer_ && samples_; }
 
   std::shared_ptr<const Scene> scene_;
@@ -94,7 +104,10 @@ class Relighter : public QObject {
   MethodRecipe method_;
   std::vector<Material> materials_;
   std::shared_ptr<const BiscaleSurface> patch_;
-  ShRgb light_;
+  Surroundings surroundings_;
+  Vec3 middle_{0};  // of the scene
+  SceneLighting lighting_;
+  SceneLight light_;
   SurfaceLight surface_;
   quint64 sceneVersion_ = 0, lightVersion_ = 0, environmentVersion_ = 0, materialVersion_ = 0;
   quint64 lightOf_ = 0, surfaceOf_ = 0;  // light versions that light_ and surface_ were made of

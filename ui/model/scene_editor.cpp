@@ -122,8 +122,9 @@ bool SceneEditor::visible(int object) const {
 
 bool SceneEditor::canHide(int object) const {
   const auto& objects = session_.document().recipe().objects;
+  const auto baked = [](const ObjectRecipe& o) { return o.visible && !o.captured; };
   return visible(object) &&
-         std::count_if(objects.begin(), objects.end(), [](const ObjectRecipe& o) { return o.visible; }) > 1;
+         (objects[std::size_t(object)].captured || std::count_if(objects.begin(), objects.end(), baked) > 1);
 }
 
 void SceneEditor::setVisible(int object, bool on) {

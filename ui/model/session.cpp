@@ -4,9 +4,11 @@
 #include "libprt/core/error.h"
 #include "libprt/light/built_in_skies.h"
 #include "libprt/light/projection.h"
+#include "libprt/project/captured_objects.h"
 #include "libprt/project/lights.h"
 #include "libprt/project/products.h"
 #include "libprt/project/scenes.h"
+#include "ui/model/captured_scene.h"
 #include "ui/model/chart_editor.h"
 #include "ui/model/defect_view.h"
 #include "ui/model/error_estimate.h"
@@ -56,6 +58,7 @@ Session::Session(QObject* parent)
       project_(document_, bakes_, jobs_, log_),
       environments_(std::make_shared<EnvironmentCache>()),
       sceneEditor_(std::make_unique<SceneEditor>(*this)),
+      captured_(std::make_unique<CapturedScene>(*this)),
       charts_(std::make_unique<ChartEditor>(*this)),
       defects_(std::make_unique<DefectView>(*this)),
       errors_(std::make_unique<ErrorEstimate>(*this)),
@@ -279,7 +282,7 @@ void Session::take(const QString& stage, const ProductState& state) {
 // The view of a scene that was just opened: its own camera, or one that shows everything.
 void Session::showFirst() {
   const auto& cameras = document_.recipe().cameras;
-  view_.setHome(cameras.empty() ? frameBox(bounds()) : cameras.front().camera());
+  view_.setHome(cameras.empty() ? frameBox(allBounds()) : cameras.front().camera());
   view_.reset();
 }
 
@@ -331,7 +334,19 @@ Box3 Session::bounds() const {
   return relighter_.scene() ? relighter_.scene()->mesh.bounds() : Box3{};
 }
 
+Box3 Session::allBounds() const {
+  Box3 box = bounds();
+  for (int i = 0; i < int(document_.recipe().objects.size()); ++i)
+    if (isCaptured(document_.recipe().objects[std::size_t(i)]))
+      if (const Box3 around = objectBounds(i); !around.empty())
+        box.extend(around.low), box.extend(around.high);
+  return box;
+}
+
 Box3 Session::objectBounds(int object) const {
+  const auto& objects = document_.recipe().objects;
+  if (object >= 0 && object < int(objects.size()) && isCaptured(objects[std::size_t(object)]))
+    return sceneEditor_->boundsOf(object);  // where it is now
   return object >= 0 && object < int(objectBounds_.size()) ? objectBounds_[std::size_t(object)] : Box3{};
 }
 

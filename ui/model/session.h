@@ -28,6 +28,7 @@ struct MeshProduct;
 
 namespace prt::ui {
 
+class CapturedScene;
 class ChartEditor;
 class DefectView;
 class ErrorEstimate;
@@ -113,9 +114,11 @@ class Session : public QObject {
   /// What is stored for the surface, in words: form, functions, bytes.
   QString transferSummary() const;
   Box3 bounds() const;
+  /// The same with what stands around the model.
+  Box3 allBounds() const;
   /// Of one object; empty when there is no such object or nothing was read yet.
   Box3 objectBounds(int object) const;
-  void frameAll() { view_.frame(bounds()); }
+  void frameAll() { view_.frame(allBounds()); }
   void frameSelected() { view_.frame(objectBounds(selectedObject_)); }
 
   /// Writes to the log, and for warnings and errors asks for a message at its place.
@@ -163,6 +166,7 @@ class Session : public QObject {
   int level_ = 0, levels_ = 0;
   SurfaceLayers layers_;
   std::unique_ptr<SceneEditor> sceneEditor_;
+  std::unique_ptr<CapturedScene> captured_;
   std::unique_ptr<ChartEditor> charts_;
   std::unique_ptr<DefectView> defects_;
   std::unique_ptr<ErrorEstimate> errors_;

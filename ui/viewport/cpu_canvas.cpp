@@ -123,6 +123,7 @@ LiveScene CpuCanvas::liveScene() const {
   scene.environment = sky.map;
   scene.circles = sky.circles;
   scene.constant = sky.constant;
+  scene.surroundings = lit.surroundings();
   scene.patch = lit.shownPatch();
   scene.viewDependent = lit.method().viewDependent;
   return scene;

@@ -202,6 +202,7 @@ void GlCanvas::uploadLight() {
   } else {
     renderer_->setLight(lit.surface());
   }
+  renderer_->setSurroundings(lit.surroundings());
   light_ = lit.lightVersion();
 }
 

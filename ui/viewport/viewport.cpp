@@ -212,7 +212,7 @@ void Viewport::mouseReleaseEvent(QMouseEvent* event) {
 
 void Viewport::click(const Press& press, const QPointF& globalAt, Qt::KeyboardModifiers modifiers) {
   if (press.button == Qt::MiddleButton) return;
-  if (const auto hit = pick(press.at)) session_.selectObject(int(hit->object));
+  if (const int object = objectAt(press.at); object >= 0) session_.selectObject(object);
   if (press.button == Qt::LeftButton) Q_EMIT clicked(press.at, modifiers);
   if (press.button == Qt::RightButton && modifiers == Qt::NoModifier)
     Q_EMIT menuRequested(globalAt.toPoint());
@@ -299,6 +299,20 @@ std::optional<SurfaceHit> Viewport::pick(const QPointF& at) const {
   const double scale = devicePixelRatioF();
   return pickSurface(*scene, session_.view().camera(), float(at.x() * scale), float(at.y() * scale),
                      qRound(width() * scale), qRound(height() * scale));
+}
+
+int Viewport::objectAt(const QPointF& at) const {
+  const auto hit = pick(at);
+  const int found = hit ? int(hit->object) : -1;
+  const auto& around = session_.relighter().surroundings().scene;
+  if (!around) return found;
+  const Camera& camera = session_.view().camera();
+  const double scale = devicePixelRatioF();
+  const auto beside = pickSurface(*around, camera, float(at.x() * scale), float(at.y() * scale),
+                                  qRound(width() * scale), qRound(height() * scale));
+  if (!beside) return found;
+  const Vec3 back = camera.axes().normal;
+  return hit && dot(hit->position, back) > dot(beside->position, back) ? found : int(beside->object);
 }
 
 // ---- manipulators ----

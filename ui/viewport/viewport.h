@@ -43,6 +43,8 @@ class Viewport : public QWidget {
   bool pictureMode() const { return pictureMode_; }
   /// The surface at a place of this widget, in logical pixels, right on scaled displays too.
   std::optional<SurfaceHit> pick(const QPointF& at) const;
+  /// Of the scene or around it; -1 where there is nothing.
+  int objectAt(const QPointF& at) const;
   QSize sizeHint() const override { return {960, 720}; }
 
  Q_SIGNALS:
