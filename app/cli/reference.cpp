@@ -4,6 +4,7 @@
 #include "app/cli/session.h"
 #include "app/cli/view_options.h"
 #include "libprt/core/image_io.h"
+#include "libprt/project/captured_objects.h"
 #include "libprt/project/pipeline.h"
 #include "libprt/project/products.h"
 #include "libprt/project/project_file.h"
@@ -34,10 +35,10 @@ void reference(Session& session, const Options& options) {
   const Recipe& recipe = project->recipe();
   const fs::path folder = folderOf(options.view.project);
   Pipeline pipeline(project.get(), {folder});
-  const Products products = pipeline.run(recipe, {"scene"}, session.job());
+  const Products products = pipeline.run(withCapturedInside(recipe), {"scene"}, session.job());
   const Scene scene = withMaterials(*products.get<SceneProduct>("scene")->scene, recipe);
   const View view = viewOf(options.view, recipe, folder, scene.mesh.bounds());
-  const PathTracer tracer(scene, view.lights, session.job());
+  const PathTracer tracer(scene, view.lights, session.job(), emissionOf(recipe));
   PathOptions path;
   path.bounces = options.bounces.value_or(recipe.transfer.bounces);
   path.diffuseBounces = options.diffuseBounces;

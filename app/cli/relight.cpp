@@ -42,7 +42,7 @@ void relightProject(Session& session, const Options& options) {
   if (!baked.final())
     logWarning(fmt::format("transfer is a preview, {} of {}; prt bake {} finishes it", baked.level,
                            baked.levels, options.view.project));
-  const View view = viewOf(options.view, recipe, folder, baked.geometry->scene->mesh.bounds());
+  const View view = viewOf(options.view, recipe, folder, baked.bounds());
   PictureOptions picture{view.width, view.height};
   picture.background = options.view.background;
   const auto begun = std::chrono::steady_clock::now();

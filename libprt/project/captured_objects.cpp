@@ -23,6 +23,21 @@ bool hasCaptured(const Recipe& recipe) {
   return std::any_of(recipe.objects.begin(), recipe.objects.end(), isCaptured);
 }
 
+Recipe withCapturedInside(Recipe recipe) {
+  for (ObjectRecipe& object : recipe.objects) object.captured = false;
+  return recipe;
+}
+
+std::vector<Rgb> emissionOf(const Recipe& recipe) {
+  std::vector<Rgb> out;
+  bool any = false;
+  for (const ObjectRecipe& object : recipe.objects) {
+    out.push_back(isCaptured(object) ? object.emission : Rgb(0));
+    any = any || out.back() != Rgb(0);
+  }
+  return any ? out : std::vector<Rgb>{};
+}
+
 Surroundings surroundingsOf(const Recipe& recipe, const MeshProduct& meshes) {
   if (!hasCaptured(recipe) || meshes.meshes.size() != recipe.objects.size()) return {};
   const auto nothing = std::make_shared<const TriMesh>();

@@ -10,12 +10,17 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace prt {
 
 /// Whether the object stands around the others, and is seen.
 bool isCaptured(const ObjectRecipe& object);
 bool hasCaptured(const Recipe& recipe);
+/// The same scene with all of it in the bake, as a path tracer sees it.
+Recipe withCapturedInside(Recipe recipe);
+/// [objects] what each sends of its own: nothing where it is not captured. Empty when none does.
+std::vector<Rgb> emissionOf(const Recipe& recipe);
 /// All that are, as the recipe has them now, not lit yet; objects keep their numbers. A copy of their meshes:
 /// a millisecond or so. Null meshes are left out. Nothing where nothing is left, or the meshes are not as
 /// many as the objects. Throws as flattenScene() does.

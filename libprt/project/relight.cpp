@@ -8,6 +8,14 @@
 
 namespace prt {
 
+Box3 BakedScene::bounds() const {
+  Box3 box = geometry->scene->mesh.bounds();
+  if (surroundings.empty()) return box;
+  const Box3 around = surroundings.scene->mesh.bounds();
+  box.extend(around.low), box.extend(around.high);
+  return box;
+}
+
 BakedScene bakedScene(const Products& products) {
   BakedScene baked{products.get<SceneProduct>("scene"), products.get<SamplesProduct>("samples"),
                    products.get<TransferProduct>("transfer"), nullptr};

@@ -26,6 +26,8 @@ struct BakedScene {
   Surroundings surroundings = {};               ///< captured objects, not lit
 
   bool final() const { return level >= levels; }
+  /// Of all that is seen.
+  Box3 bounds() const;
 };
 
 /// What a run of the pipeline made, without patch and surroundings. Throws ValueError when transfer is not

@@ -1,5 +1,6 @@
 #include "libprt/transport/path_tracer.h"
 
+#include "libprt/core/error.h"
 #include "libprt/core/parallel.h"
 #include "libprt/material/bsdf.h"
 
@@ -52,8 +53,14 @@ struct PathTracer::Vertex {
   }
 };
 
-PathTracer::PathTracer(const Scene& scene, const LightRig& lights, Job& job)
-    : scene_(scene), rays_(scene, job), lights_(lights), diffuse_(scene.materials) {
+PathTracer::PathTracer(const Scene& scene, const LightRig& lights, Job& job, std::vector<Rgb> emission)
+    : scene_(scene),
+      rays_(scene, job),
+      lights_(lights),
+      diffuse_(scene.materials),
+      emission_(std::move(emission)) {
+  if (!emission_.empty() && emission_.size() != scene.materials.size())
+    throw ValueError("emission is not given for every object", "path tracer", "give one for each");
   for (Material& m : diffuse_) m.specular = Rgb(0);
   receiver_.albedo = Rgb(kPiF);  // a BRDF of 1: what is reflected is the irradiance
 }
@@ -102,6 +109,14 @@ Rgb PathTracer::nextEvent(const Vertex& v, const Vec2& u) const {
   return sum;
 }
 
+/// What shines of its own where a ray meets the scene.
+Rgb PathTracer::emitted(const Hit& hit, const Vec3& direction) const {
+  if (emission_.empty()) return Rgb(0);
+  const std::uint32_t object = scene_.triangleObject[hit.triangle];
+  const bool back = dot(scene_.mesh.areaNormal(hit.triangle), direction) > 0;
+  return back && !scene_.materials[object].twoSided ? Rgb(0) : emission_[object];
+}
+
 Rgb PathTracer::gather(Vertex v, const PathOptions& options, SobolStream& stream) const {
   Rgb sum(0), throughput(1);
   for (int bounce = 0; v.material; ++bounce) {
@@ -115,11 +130,13 @@ Rgb PathTracer::gather(Vertex v, const PathOptions& options, SobolStream& stream
     if (!(next.pdf > 0) || black(weight) || dot(direction, v.geometricNormal) <= 0) break;
     const Ray ray{v.origin, 0, direction};
     const bool last = bounce == options.bounces;
-    const Hit hit = last ? Hit{} : rays_.intersect(ray);
-    if (last ? !rays_.occluded(ray) : !hit.valid()) {
+    const bool looks = !last || !emission_.empty();
+    const Hit hit = looks ? rays_.intersect(ray) : Hit{};
+    if (looks ? !hit.valid() : !rays_.occluded(ray)) {
       sum += weight * lights_.radiance(direction) * powerHeuristic(next.pdf, lights_.pdf(direction));
       break;
     }
+    if (looks) sum += weight * emitted(hit, direction);
     if (last) break;
     throughput = weight;
     v = vertexAt(hit, direction, false, options);
@@ -130,7 +147,8 @@ Rgb PathTracer::gather(Vertex v, const PathOptions& options, SobolStream& stream
 PathSample PathTracer::trace(const Ray& ray, const PathOptions& options, SobolStream& stream) const {
   const Hit hit = rays_.intersect(ray);
   if (!hit.valid()) return {lights_.radiance(ray.direction), false};
-  return {gather(vertexAt(hit, ray.direction, true, options), options, stream), true};
+  const Rgb own = emitted(hit, ray.direction);
+  return {own + gather(vertexAt(hit, ray.direction, true, options), options, stream), true};
 }
 
 Rgb PathTracer::irradiance(const SampleSet& samples, std::size_t index, const PathOptions& options,

@@ -42,8 +42,10 @@ struct PathSample {
 
 class PathTracer {
  public:
-  /// Keeps a reference to `scene`. Throws as RayScene and LightSampler do.
-  PathTracer(const Scene& scene, const LightRig& lights, Job& job);
+  /// Keeps a reference to `scene`. `emission`: radiance that reflecting sides of each object send of their
+  /// own, found by rays that happen to meet them; empty: none. Throws as RayScene and LightSampler do, and
+  /// ValueError when there is not one for each object.
+  PathTracer(const Scene& scene, const LightRig& lights, Job& job, std::vector<Rgb> emission = {});
 
   /// One path along `ray`, with numbers from `stream`.
   PathSample trace(const Ray& ray, const PathOptions& options, SobolStream& stream) const;
@@ -63,11 +65,13 @@ class PathTracer {
   Vertex vertexAt(const Hit& hit, const Vec3& direction, bool first, const PathOptions& options) const;
   Rgb gather(Vertex vertex, const PathOptions& options, SobolStream& stream) const;
   Rgb nextEvent(const Vertex& vertex, const Vec2& u) const;
+  Rgb emitted(const Hit& hit, const Vec3& direction) const;
 
   const Scene& scene_;
   RayScene rays_;
   LightSampler lights_;
   std::vector<Material> diffuse_;  // [objects] without their specular part
+  std::vector<Rgb> emission_;      // [objects] or empty
   Material receiver_;
 };
 
