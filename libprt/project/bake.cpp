@@ -81,7 +81,7 @@ std::vector<BakeSummary::Object> describeObjects(const Recipe& recipe, const Mes
 }
 
 BakeSummary::TransferFacts describeTransfer(const Transfer& t) {
-  const std::size_t bytes = t.values.bytes.size() + t.diffuse.bytes.size() + t.surface.bytes.size();
+  const std::size_t bytes = t.bytes() + t.diffuse.bytes.size() + t.surface.bytes.size();
   return {toString(t.form), t.bands, t.raysPerSample, t.bounces, t.samples, bytes, t.storageError};
 }
 

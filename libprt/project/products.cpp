@@ -106,6 +106,18 @@ std::vector<std::int64_t> vectorShape(std::int64_t samples, std::int64_t functio
   return {samples, functions};
 }
 
+void checkClusters(const Transfer& t) {
+  const std::string stage = "transfer";
+  const std::int64_t samples = std::int64_t(t.samples), k = t.functions();
+  if (t.values.dtype != DType::f16 || t.values.shape.size() != 2 || t.values.shape[0] != samples ||
+      t.cluster.dtype != DType::u32 || t.cluster.shape != std::vector<std::int64_t>{samples} ||
+      t.basis.dtype != DType::f16 || t.basis.shape.empty() ||
+      t.basis.shape != std::vector<std::int64_t>{t.basis.shape[0], t.values.shape[1] + 1, t.channels, k, k})
+    unfit(stage);
+  for (const std::uint32_t c : t.cluster.as<std::uint32_t>())
+    if (std::int64_t(c) >= t.basis.shape[0]) unfit(stage);
+}
+
 /// What the renderers rely on: a damaged or forged file must not get past here.
 void checkShapes(const Transfer& t) {
   const std::string stage = "transfer";
@@ -122,7 +134,10 @@ void checkShapes(const Transfer& t) {
       requireShape(t.values, {samples, wide}, true, stage);
       break;
     case TransferForm::Matrix:
-      requireShape(t.values, {samples, t.channels, k, k}, true, stage);
+      if (t.clustered())
+        checkClusters(t);
+      else
+        requireShape(t.values, {samples, t.channels, k, k}, true, stage);
       break;
   }
   if (t.form == TransferForm::Visibility || t.form == TransferForm::Matrix)
@@ -286,6 +301,8 @@ ProductData TransferProduct::save() const {
                   {"bounces", transfer.bounces},        {"storageError", transfer.storageError}};
   ProductData data{meta.dump(), {}};
   put(data, "values", transfer.values);
+  put(data, "cluster", transfer.cluster);
+  put(data, "basis", transfer.basis);
   put(data, "diffuse", transfer.diffuse);
   put(data, "surface", transfer.surface);
   return data;
@@ -303,6 +320,8 @@ ProductPtr TransferProduct::load(ProductData data) {
   t.bounces = wholeNumber(meta, "bounces", 0, kMaxBounces);
   t.storageError = number(meta, "storageError");
   t.values = take(data, "values");
+  t.cluster = take(data, "cluster");
+  t.basis = take(data, "basis");
   t.diffuse = take(data, "diffuse");
   t.surface = take(data, "surface");
   checkShapes(t);

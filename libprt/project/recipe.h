@@ -111,6 +111,8 @@ struct TransferRecipe {
   bool shadows = true;
   float threshold = 0.001f;  ///< bounces end early when one adds less than this fraction
   TransferStorage storage = TransferStorage::Auto;
+  float compress =
+      0;  ///< relative error that clustering matrices may add (transport/cluster_transfer.h); 0: none
   std::uint64_t seed = 1;
   bool operator==(const TransferRecipe&) const = default;
 };

@@ -623,6 +623,17 @@ const std::vector<Row<TransferRecipe>> kTransfer{
      {"auto", "float", "half"},
      "converts what is baked",
      "Number format of the result; its error is printed."},
+    {"compress",
+     [](TransferRecipe& t) -> FieldRef { return &t.compress; },
+     ParameterType::Number,
+     "",
+     0,
+     0.5,
+     {},
+     "converts what is baked",
+     "Relative error that may be added to keep matrices as sums of few in clusters: less memory, quicker "
+     "light on "
+     "large meshes. 0: as they are."},
     {"seed",
      [](TransferRecipe& t) -> FieldRef { return &t.seed; },
      ParameterType::Integer,

@@ -33,6 +33,7 @@ void resolveTransfer(const Recipe& recipe, TransferRecipe& transfer) {
   if (showsPatch(recipe)) transfer.where = TransferWhere::Vertex;  // the patch is lit at vertices
   if (transfer.where == TransferWhere::Vertex) transfer.texels = TransferRecipe{}.texels;
   if (transfer.kind == TransferKind::Visibility) transfer.bounces = 0;
+  if (transfer.kind != TransferKind::Matrix) transfer.compress = 0;
   if (transfer.bounces == 0) transfer.threshold = TransferRecipe{}.threshold;
   if (transfer.storage == TransferStorage::Auto)
     transfer.storage = transfer.kind == TransferKind::Matrix ? TransferStorage::Half : TransferStorage::Float;

@@ -11,7 +11,9 @@
 #include "libprt/project/patch_stages.h"
 #include "libprt/project/products.h"
 #include "libprt/project/synthesis_stages.h"
+#include "libprt/transport/cluster_transfer.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -128,7 +130,7 @@ std::vector<Stage> makeStages() {
        .version = 2,
        .inputs = {"scene", "samples", "rays", "direct"},
        .reads = {"objects[].material.albedo", "transfer.kind", "transfer.bounces", "transfer.threshold",
-                 "transfer.storage"},
+                 "transfer.storage", "transfer.compress"},
        .make = makeTransfer,
        .load = TransferProduct::load},
       {.name = "floor",
@@ -295,6 +297,18 @@ ProductPtr makeDirect(StageRun& run) {
   return std::make_shared<DirectProduct>(bake.product(run.job()));
 }
 
+/// In clusters, where the recipe wants that and it can be. Previews are not worth the time.
+Transfer compressed(Transfer transfer, StageRun& run) {
+  const auto budget = double(run.recipe().transfer.compress);
+  if (budget <= 0 || run.fromPreview() || transfer.form != TransferForm::Matrix) return transfer;
+  if (auto few = clusteredTransfer(transfer, {.budget = budget}, run.job())) return *std::move(few);
+  logWarning(
+      "transfer.compress=" + fmt::format("{:g}", budget) +
+      " leaves the matrices as they are: 32 terms a cluster do not keep to it, or save less than half of "
+      "the memory");
+  return transfer;
+}
+
 ProductPtr makeTransfer(StageRun& run) {
   TransferSettings settings = transferSettings(run.recipe());
   // The first preview comes at once, with shadows, in the form that is quick to make; bounces come with the
@@ -313,9 +327,12 @@ ProductPtr makeTransfer(StageRun& run) {
     if (run.checkpointDue()) keep();
   };
   try {
-    return std::make_shared<TransferProduct>(finishTransfer(
-        scene, *run.input<RaysProduct>("rays")->rays, *run.input<SamplesProduct>("samples")->samples,
-        run.input<DirectProduct>("direct")->direct, settings, *settings.form, run.job(), nullptr, &bounces));
+    return std::make_shared<TransferProduct>(
+        compressed(finishTransfer(scene, *run.input<RaysProduct>("rays")->rays,
+                                  *run.input<SamplesProduct>("samples")->samples,
+                                  run.input<DirectProduct>("direct")->direct, settings, *settings.form,
+                                  run.job(), nullptr, &bounces),
+                   run));
   } catch (const Cancelled&) {
     if (!state.empty()) keep();
     throw;

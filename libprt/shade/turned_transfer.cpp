@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -16,32 +16,6 @@ using sh_kernel::kLanes;
 using sh_kernel::Lanes;
 
 constexpr std::size_t kMaxFunctions = 100;
-
-/// Columns of stored matrices as floats.
-class Columns {
- public:
-  explicit Columns(const Transfer& transfer)
-      : functions_(std::size_t(transfer.functions())),
-        channels_(std::size_t(transfer.channels)),
-        half_(transfer.values.dtype == DType::f16) {
-    if (half_)
-      halfs_ = std::span(reinterpret_cast<const std::uint16_t*>(transfer.values.bytes.data()),
-                         transfer.values.bytes.size() / sizeof(std::uint16_t));
-    else
-      floats_ = transfer.values.as<float>();
-  }
-  /// What one function of the light becomes, of a sample and channel.
-  float at(std::size_t sample, std::size_t channel, std::size_t light, std::size_t row) const {
-    const std::size_t i = ((sample * channels_ + channel) * functions_ + light) * functions_ + row;
-    return half_ ? fromHalf(halfs_[i]) : floats_[i];
-  }
-
- private:
-  std::size_t functions_, channels_;
-  bool half_;
-  std::span<const std::uint16_t> halfs_;
-  std::span<const float> floats_;
-};
 
 ShTurns<Lanes> broadcast(const ShTurns<float>& t) {
   ShTurns<Lanes> out{};
@@ -68,19 +42,20 @@ TurnedTransfer turnedTransfer(const BiscaleSurface& surface, const SampleSet& sa
   out.halfs.assign(surface.shading.size() * each, 0);
   const int bands = std::min(transfer.bands, surface.responses->bands());
   const auto kept = std::size_t(shCount(bands));
-  const Columns columns(transfer);
   job.begin("transfer in the frames of the surface", double(surface.shading.size()), "frames");
   parallelFor(job, 0, surface.shading.size(), 64, [&](std::size_t begin, std::size_t end) {
     std::array<Lanes, kMaxFunctions> c, scratch;
+    std::vector<float> matrix(std::size_t(out.channels) * out.lights * out.lights);
     for (std::size_t f = begin; f < end; ++f) {
-      const std::size_t vertex = surface.shading.vertex[f];
+      matrixOf(transfer, surface.shading.vertex[f], matrix);
       const ShTurns<Lanes> turns = broadcast(surface.shading.turns[f]);
       for (std::size_t channel = 0; channel < std::size_t(out.channels); ++channel)
         for (std::size_t first = 0; first < out.lights; first += kLanes) {  // eight columns side by side
           const std::size_t lanes = std::min(std::size_t(kLanes), out.lights - first);
           for (std::size_t lane = 0; lane < std::size_t(kLanes); ++lane)
             for (std::size_t k = 0; k < kept; ++k)
-              c[k][int(lane)] = columns.at(vertex, channel, first + std::min(lane, lanes - 1), k);
+              c[k][int(lane)] =
+                  matrix[(channel * out.lights + first + std::min(lane, lanes - 1)) * out.lights + k];
           turnSh(bands, turns, c.data(), scratch.data());
           for (std::size_t lane = 0; lane < lanes; ++lane) {
             std::uint16_t* to =

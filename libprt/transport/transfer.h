@@ -33,6 +33,10 @@ struct Transfer {
   /// Matrix: [S, channels, n^2, n^2] by columns: element ((s * channels + c) * n^2 + light) * n^2 +
   /// transferred. So that applying it reads memory once, in order; expandedMatrices() gives rows first.
   Array values;
+  /// Matrix, clustered (cluster_transfer.h): `values` are weights [S, terms] f16, `cluster` [S] u32 says
+  /// whose, and `basis` [clusters, terms + 1, channels, n^2, n^2] f16 holds means and terms, by columns. Else
+  /// both are empty.
+  Array cluster, basis;
   /// Visibility and Matrix: the diffuse vectors as well, [S, n^2] or [S, n^2, 3] f32. They are estimated with
   /// the cosine inside, where T would cut it (times the light) off after n bands.
   Array diffuse;
@@ -48,6 +52,9 @@ struct Transfer {
 
   bool final() const { return raysPerSample >= raysWanted; }
   int functions() const { return bands * bands; }
+  bool clustered() const { return !basis.bytes.empty(); }
+  /// Of what applying it reads.
+  std::size_t bytes() const { return values.bytes.size() + cluster.bytes.size() + basis.bytes.size(); }
 };
 
 /// Irradiance at each sample, [S]. `normals` (shading normals, [S]) serve the form that does not hold the
@@ -72,6 +79,8 @@ std::vector<Rgb> transferredRadiance(const Transfer& transfer, const ShRgb& ligh
 /// Visibility form is expanded, None gives identities. Throws ValueError for the Diffuse form, ResourceError
 /// when they would not fit in memory.
 Array expandedMatrices(const Transfer& transfer);
+/// The form Matrix: one sample's, [channels, light, transferred], as it is stored or put together.
+void matrixOf(const Transfer& transfer, std::size_t sample, std::span<float> out);
 /// Irradiance vectors as f32, [S, n^2] or [S, n^2, 3], for every form that holds them (not None: ValueError).
 Array diffuseVectors(const Transfer& transfer);
 

@@ -4,6 +4,7 @@
 #include "libprt/core/error.h"
 #include "libprt/core/half.h"
 #include "libprt/core/parallel.h"
+#include "libprt/transport/cluster_transfer.h"
 #include "libprt/transport/matrix_kernel.h"
 #include "libprt/transport/matrix_store.h"
 #include "libprt/transport/transfer.h"
@@ -101,21 +102,27 @@ struct VisibilityLight {
   }
 };
 
+/// Rows of floats, `stride` apart, a multiple of 8.
+struct FloatRows {
+  const float* first;
+  std::size_t count, stride;
+};
+
 template <int Vectors>
-void multiplyVisibility(const float* v, const VisibilityLight& light, std::size_t at, float* sum) {
+void multiplyRows(const float* v, const FloatRows& rows, std::size_t at, float* sum) {
   Float8 acc[Vectors] = {};
-  for (std::size_t k = 0; k < light.wide; ++k) {
-    const float* row = light.rows.data() + k * light.stride + at;
+  for (std::size_t k = 0; k < rows.count; ++k) {
+    const float* row = rows.first + k * rows.stride + at;
     for (int i = 0; i < Vectors; ++i) acc[i] += v[k] * load8(row + 8 * i);
   }
   for (int i = 0; i < Vectors; ++i) *reinterpret_cast<Float8*>(sum + at + std::size_t(8 * i)) = acc[i];
 }
 
-/// sum[stride] = v B, ten vectors of columns at a time.
-void multiplyVisibility(const float* v, const VisibilityLight& light, float* sum) {
+/// sum[stride] = v times the rows, ten vectors of columns at a time.
+void multiplyRows(const float* v, const FloatRows& rows, float* sum) {
   std::size_t at = 0;
-  for (; at + 80 <= light.stride; at += 80) multiplyVisibility<10>(v, light, at, sum);
-  for (; at < light.stride; at += 8) multiplyVisibility<1>(v, light, at, sum);
+  for (; at + 80 <= rows.stride; at += 80) multiplyRows<10>(v, rows, at, sum);
+  for (; at < rows.stride; at += 8) multiplyRows<1>(v, rows, at, sum);
 }
 
 /// Row `sample` of a [S, width] array, as f32; `buffer` serves when it is stored as f16.
@@ -134,7 +141,29 @@ void applyVisibility(const Transfer& transfer, const std::vector<Rgb>& light, co
   parallelFor(job, 0, selection.size(), 256, [&](std::size_t begin, std::size_t end) {
     std::vector<float> buffer, sum(matrix.stride);
     for (std::size_t i = begin; i < end; ++i) {
-      multiplyVisibility(rowOf(transfer.values, matrix.wide, selection.at(i), buffer), matrix, sum.data());
+      multiplyRows(rowOf(transfer.values, matrix.wide, selection.at(i), buffer),
+                   {matrix.rows.data(), matrix.wide, matrix.stride}, sum.data());
+      std::copy_n(sum.data(), functions * 3, &result[i * functions].x);
+    }
+  });
+}
+
+// ---- Matrix, clustered ----
+
+void applyClusters(const Transfer& transfer, const std::vector<Rgb>& light, const Selection& selection,
+                   Rgb* result) {
+  const LitClusters lit(transfer, light);
+  const auto functions = std::size_t(transfer.functions()), terms = lit.rows - 1;
+  const auto cluster = transfer.cluster.as<std::uint32_t>();
+  const auto weights = transfer.values.as<std::uint16_t>();
+  Job job;
+  parallelFor(job, 0, selection.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> v(lit.rows, 1.0f), sum(lit.stride);  // the mean once
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t s = selection.at(i);
+      fromHalf(weights.subspan(s * terms, terms), std::span(v).subspan(1));
+      multiplyRows(v.data(), {lit.values.data() + cluster[s] * lit.rows * lit.stride, lit.rows, lit.stride},
+                   sum.data());
       std::copy_n(sum.data(), functions * 3, &result[i * functions].x);
     }
   });
@@ -152,6 +181,7 @@ void apply(const Transfer& transfer, const ShRgb& light, const Selection& select
     case TransferForm::Visibility:
       return applyVisibility(transfer, c, selection, result);
     case TransferForm::Matrix:
+      if (transfer.clustered()) return applyClusters(transfer, c, selection, result);
       return transfer.values.dtype == DType::f16 ? applyMatrix<std::uint16_t>(transfer, c, selection, result)
                                                  : applyMatrix<float>(transfer, c, selection, result);
     case TransferForm::Diffuse:

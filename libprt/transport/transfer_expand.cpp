@@ -23,17 +23,39 @@ std::vector<float> asFloats(const Array& array) {
 
 /// Rows first, channels innermost, from columns first, channels outermost.
 void expandColumns(const Transfer& transfer, const MatrixLayout& layout, std::span<float> out) {
-  const std::vector<float> values = asFloats(transfer.values);
   const std::size_t n = layout.functions, channels = layout.channels;
-  for (std::size_t s = 0; s < layout.samples; ++s)
+  std::vector<float> matrix(layout.sampleSize());
+  for (std::size_t s = 0; s < layout.samples; ++s) {
+    matrixOf(transfer, s, matrix);
     for (std::size_t c = 0; c < channels; ++c)
       for (std::size_t column = 0; column < n; ++column)
         for (std::size_t row = 0; row < n; ++row)
-          out[((s * n + row) * n + column) * channels + c] =
-              values[((s * channels + c) * n + column) * n + row];
+          out[((s * n + row) * n + column) * channels + c] = matrix[(c * n + column) * n + row];
+  }
+}
+
+/// `count` numbers from the at-th on.
+void readFloats(const Array& array, std::size_t at, std::span<float> out) {
+  if (array.dtype == DType::f16)
+    fromHalf(array.as<std::uint16_t>().subspan(at, out.size()), out);
+  else
+    std::copy_n(array.as<float>().begin() + std::ptrdiff_t(at), out.size(), out.begin());
 }
 
 }  // namespace
+
+void matrixOf(const Transfer& transfer, std::size_t sample, std::span<float> out) {
+  if (!transfer.clustered()) return readFloats(transfer.values, sample * out.size(), out);
+  const auto terms = std::size_t(transfer.values.shape[1]);
+  const std::size_t first = transfer.cluster.as<std::uint32_t>()[sample] * (terms + 1) * out.size();
+  readFloats(transfer.basis, first, out);
+  std::vector<float> weights(terms), term(out.size());
+  readFloats(transfer.values, sample * terms, weights);
+  for (std::size_t t = 0; t < terms; ++t) {
+    readFloats(transfer.basis, first + (t + 1) * out.size(), term);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[t] * term[i];
+  }
+}
 
 Array expandedMatrices(const Transfer& transfer) {
   if (transfer.form == TransferForm::Diffuse)

@@ -320,7 +320,7 @@ QString Session::transferSummary() const {
   QString text = tr("Stored per sample: %1. %2 samples, %3 functions, %4 MB.")
                      .arg(nameOf(transfer->form), formatCount(qint64(transfer->samples)))
                      .arg(transfer->functions())
-                     .arg(double(transfer->values.bytes.size()) / 1e6, 0, 'f', 1);
+                     .arg(double(transfer->bytes()) / 1e6, 0, 'f', 1);
   for (const std::string& line : contradictions(document_.recipe()))
     text += QStringLiteral("\n\n") + QString::fromStdString(line);
   return text;
