@@ -18,7 +18,7 @@ const Transfer& dense() {
   static const Transfer transfer = [] {
     TransferSettings s;
     s.rays = 256, s.bounces = 1, s.form = TransferForm::Matrix, s.storage = DType::f16;
-    return BakeInput(rock(40), Rgb(0.7f, 0.6f, 0.5f)).transfer(s);
+    return BakeInput(rock(90), Rgb(0.7f, 0.6f, 0.5f)).transfer(s);
   }();
   return transfer;
 }
