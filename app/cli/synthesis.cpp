@@ -47,14 +47,16 @@ Laid laidPatch(Pipeline& pipeline, const Recipe& recipe, const std::string& proj
   return laid;
 }
 
-/// The transfer that the project holds, where a patch can be lit by it: at vertices, with directions.
+/// The transfer that the project holds, where the patch can be lit by it: at vertices, with as much as it
+/// needs.
 std::shared_ptr<const TransferProduct> transferFor(Pipeline& pipeline, const Recipe& recipe,
-                                                   const SampleSet& samples, int bands) {
+                                                   const SampleSet& samples, const BiscaleSurface& patch) {
   const auto found = pipeline.find(recipe, {"transfer"}).get<TransferProduct>("transfer");
-  const bool serves = found && samples.vertices > 0 && found->transfer.form != TransferForm::Diffuse;
+  const bool serves =
+      found && samples.vertices > 0 && (found->transfer.form != TransferForm::Diffuse || patch.matte);
   if (serves) return found;
   Transfer none;
-  none.bands = bands;
+  none.bands = patch.responses->bands();
   return std::make_shared<TransferProduct>(std::move(none));
 }
 
@@ -68,7 +70,7 @@ void drawSurface(Session& session, const Options& options, Pipeline& pipeline, c
     if (options.ids)
       return patchColours(mesh, *patch->cover, view.camera, view.width, view.height, 2, session.job());
     const SampleSet& samples = *laid.products.get<SamplesProduct>("samples")->samples;
-    const auto baked = transferFor(pipeline, recipe, samples, patch->responses->bands());
+    const auto baked = transferFor(pipeline, recipe, samples, *patch);
     const Transfer& transfer = baked->transfer;
     const ShRgb light = lightFor(view.lights, transfer.bands, recipe.method);
     return renderBiscale({*patch, samples, transfer, light, nullptr, recipe.method.viewDependent},

@@ -83,6 +83,7 @@ std::shared_ptr<const BiscaleSurface> laidPatch(const Products& products, const 
   auto surface = std::make_shared<BiscaleSurface>(
       scene->scene, std::shared_ptr<const TangentFrames>(frames, &frames->frames), cover,
       std::make_shared<ResponseTable>(*table));
+  surface->matte = isMattePlane(recipe);
   surface->plain = plainObjects(*scene->scene, recipe, table->bands);
   if (recipe.method.filter) surface->filter = std::make_shared<PatchFilter>(cover, *table, job);
   return surface;
@@ -95,6 +96,7 @@ std::shared_ptr<const BiscaleSurface> withPlainObjects(std::shared_ptr<const Bis
   if (!plain && !surface->plain) return surface;
   auto changed = std::make_shared<BiscaleSurface>(*surface);
   changed->plain = std::move(plain);
+  changed->matte = isMattePlane(recipe);
   return changed;
 }
 
@@ -103,6 +105,17 @@ std::vector<std::optional<Material>> plainMaterials(const Recipe& recipe) {
   for (const ObjectRecipe& object : recipe.objects)
     out.push_back(object.patch ? std::nullopt : std::optional(object.material));
   return out;
+}
+
+bool isMattePlane(const Recipe& recipe) {
+  const auto matte = [](const PatchOptions& patch) {
+    return patch.model == PatchModel::Flat && luminance(patch.specular) <= 0;
+  };
+  return matte(recipe.patch) &&
+         std::all_of(recipe.layers.begin(), recipe.layers.end(),
+                     [&](const LayerRecipe& layer) { return !isPainted(layer) || matte(layer.patch); }) &&
+         std::none_of(recipe.objects.begin(), recipe.objects.end(),
+                      [](const ObjectRecipe& o) { return o.visible && !o.patch && o.material.glossy(); });
 }
 
 bool showsPatch(const Recipe& recipe) {

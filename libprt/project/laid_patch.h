@@ -31,6 +31,9 @@ std::shared_ptr<const BiscaleSurface> withPlainObjects(std::shared_ptr<const Bis
 /// What withPlainObjects() reads of the recipe: the materials of plain objects, nothing for the others.
 std::vector<std::optional<Material>> plainMaterials(const Recipe& recipe);
 
+/// Whether the patch, its layers and the objects beside it are flat and matte: what they show is irradiance.
+bool isMattePlane(const Recipe& recipe);
+
 /// Whether pictures of this recipe show the patch on the surface once it is laid: method.name is biscale.
 bool showsPatch(const Recipe& recipe);
 

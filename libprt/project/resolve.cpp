@@ -16,7 +16,7 @@ bool anyGlossy(const Recipe& recipe) {
 
 /// The cheapest form that holds what materials, patch and bounces need.
 TransferKind cheapestKind(const Recipe& recipe) {
-  if (!anyGlossy(recipe) && !showsPatch(recipe)) return TransferKind::Diffuse;
+  if (!anyGlossy(recipe) && (!showsPatch(recipe) || isMattePlane(recipe))) return TransferKind::Diffuse;
   return recipe.transfer.bounces == 0 ? TransferKind::Visibility : TransferKind::Matrix;
 }
 

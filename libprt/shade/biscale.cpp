@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -51,7 +52,7 @@ struct NeededVertices {
 void expectFit(const BiscaleSurface& surface, const SampleSet& samples, const Transfer& transfer) {
   const std::size_t vertices = surface.scene->mesh.vertexCount();
   if (transfer.form == TransferForm::None) return;
-  if (transfer.form == TransferForm::Diffuse)
+  if (transfer.form == TransferForm::Diffuse && !surface.matte)
     throw ValueError("diffuse transfer holds too little for a patch", "bi-scale renderer",
                      "bake with transfer.kind=visibility or matrix");
   if (samples.vertices < vertices || transfer.samples != samples.size())
@@ -68,6 +69,10 @@ BiscaleLight::BiscaleLight(const BiscaleSurface& surface, std::span<const std::u
   if (frames.empty()) return;
   const NeededVertices needed(surface.shading, frames);
   const SurfaceLight arriving = surfaceLight(transfer, light, samples, needed.vertices);
+  if (arriving.form == TransferForm::Diffuse) {
+    takeIrradiance(needed.place, arriving.irradiance);
+    return;
+  }
   const bool everywhere = transfer.form == TransferForm::None;
   const int bands = std::min(arriving.bands, surface.responses->bands());
   const auto functions = std::size_t(shCount(bands)), stride = std::size_t(shCount(arriving.bands));
@@ -90,6 +95,14 @@ BiscaleLight::BiscaleLight(const BiscaleSurface& surface, std::span<const std::u
       }
     }
   });
+}
+
+// Constant light that a matte plane reflects as much of.
+void BiscaleLight::takeIrradiance(std::span<const std::uint32_t> place, std::span<const Rgb> irradiance) {
+  const float scale = std::sqrt(4 * kPiF) / kPiF;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      records_[(3 * i + c) * padded_] = scale * irradiance[place[i]][int(c)];
 }
 
 namespace {

@@ -25,8 +25,9 @@ namespace prt {
 class BiscaleLight {
  public:
   BiscaleLight() = default;
-  /// `samples` begin with the vertices of the scene. The form Diffuse holds too little: ValueError. Functions
-  /// that transfer or light lack are 0; those that `surface.responses` lacks are left out.
+  /// `samples` begin with the vertices of the scene. The form Diffuse holds too little but for matte
+  /// surfaces: ValueError. Functions that transfer or light lack are 0; those that `surface.responses` lacks
+  /// are left out.
   BiscaleLight(const BiscaleSurface& surface, std::span<const std::uint32_t> frames, const SampleSet& samples,
                const Transfer& transfer, const ShRgb& light, Job& job);
 
@@ -37,6 +38,8 @@ class BiscaleLight {
   std::span<const float> records() const { return records_; }
 
  private:
+  void takeIrradiance(std::span<const std::uint32_t> place, std::span<const Rgb> irradiance);
+
   std::size_t padded_ = 0;
   std::vector<float> records_;
 };

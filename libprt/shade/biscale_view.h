@@ -34,6 +34,9 @@ struct BiscaleSurface {
   /// the responses.
   std::shared_ptr<const PlainObjects> plain = {};
 
+  /// Every place answers as a matte plane does: diffuse vectors hold all that it shows.
+  bool matte = false;
+
   BiscaleSurface(std::shared_ptr<const Scene> scene, std::shared_ptr<const TangentFrames> frames,
                  std::shared_ptr<const PatchCover> cover, std::shared_ptr<const ResponseTable> responses);
 };

@@ -54,6 +54,41 @@ TEST(LaidPatch, BiscaleAsksForTransferThatKeepsDirections) {
   EXPECT_TRUE(stagesOfLaidPatch(recipe).empty());
 }
 
+TEST(LaidPatch, FlatAndMatteItNeedsDiffuseVectorsOnly) {
+  Recipe recipe = smallPatch(PatchMapping::Synthesis);
+  recipe.patch = {};
+  recipe.patch.model = PatchModel::Flat, recipe.patch.albedo = Rgb(0.6f, 0.4f, 0.2f);
+  recipe.objects[0].material.albedo = recipe.patch.albedo;
+  EXPECT_EQ(resolved(recipe).transfer.kind, TransferKind::Diffuse);
+  const Products products = bake(recipe);
+  BakedScene baked = bakedScene(products);
+  baked.patch = laidPatch(products, recipe);
+  ASSERT_TRUE(baked.patch && baked.patch->matte);
+  LightRig lights;
+  lights.constant = Rgb(0.5f);
+  lights.circles.push_back({normalize(Vec3(1, 2, 1)), 0.6f, Rgb(2)});
+  const Camera camera = frameBox(baked.geometry->scene->mesh.bounds());
+  Job job;
+  const Image patched = relight(baked, recipe, lights, camera, {60, 45}, job);
+  recipe.method.name = "auto";
+  const Image plain = relight(baked, recipe, lights, camera, {60, 45}, job);
+  double difference = 0, sum = 0;
+  for (std::size_t i = 0; i < plain.data.size(); ++i)
+    difference += double(std::abs(patched.data[i] - plain.data[i])), sum += double(plain.data[i]);
+  EXPECT_GT(sum, 10);
+  EXPECT_LT(difference, 0.03 * sum) << "the noise of the texture's rays";
+
+  recipe.method.name = "biscale";
+  Recipe other = recipe;
+  other.patch.specular = Rgb(0.1f);
+  EXPECT_EQ(resolved(other).transfer.kind, TransferKind::Matrix);
+  other = recipe;
+  other.layers.push_back({"bumps", {}, "0,0,0 0.1 1"});
+  EXPECT_EQ(resolved(other).transfer.kind, TransferKind::Diffuse) << "a layer without a patch";
+  other.layers[0].patch.model = PatchModel::Weave;
+  EXPECT_EQ(resolved(other).transfer.kind, TransferKind::Matrix);
+}
+
 TEST(LaidPatch, PicturesShowItAndWithoutItSayWhatToDo) {
   for (const PatchMapping mapping : {PatchMapping::Synthesis, PatchMapping::Uv}) {
     Recipe recipe = smallPatch(mapping);

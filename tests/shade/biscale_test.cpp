@@ -122,6 +122,38 @@ TEST(Biscale, LayersBlendTheirResponses) {
     }
 }
 
+/// Irradiance vectors of the samples' own.
+Transfer diffuseVectorsOf(std::size_t samples) {
+  Transfer t;
+  t.form = TransferForm::Diffuse, t.bands = kBands, t.samples = samples, t.channels = 1;
+  std::vector<float> values(samples * kFunctions);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = (i % kFunctions == 0 ? 1.0f : 0.1f) + 0.2f * test::noise(17, i);
+  t.values = Array::from<float>(std::span<const float>(values), {std::int64_t(samples), kFunctions});
+  return t;
+}
+
+TEST(Biscale, MatteSurfacesAreLitByIrradianceAlone) {
+  const World w(sceneOf(rock(12), lambert(Rgb(0.5f))), lambertRtt(0.5f));
+  const Transfer transfer = diffuseVectorsOf(w.samples.size());
+  const ShRgb light = variedLight();
+  Job job;
+  BiscaleSurface surface = w.surface();
+  EXPECT_THROW(renderBiscale({surface, w.samples, transfer, light}, camera(), 8, 8, 1, job), ValueError)
+      << "it is not said to be matte";
+  surface.matte = true;
+  const Image patch = renderBiscale({surface, w.samples, transfer, light}, camera(), 48, 36, 1, job),
+              plain = render({*w.scene, w.samples, transfer, light}, camera(), 48, 36, 1, job);
+  int compared = 0;
+  for (int y = 0; y < 36; ++y)
+    for (int x = 0; x < 48; ++x) {
+      if (patch.rgb(x, y) == Rgb(0)) continue;  // nothing, or a texel that shows nothing
+      ++compared;
+      EXPECT_LT(distance(patch.rgb(x, y), plain.rgb(x, y)), 2e-3f) << x << ' ' << y;
+    }
+  EXPECT_GT(compared, 300);
+}
+
 TEST(PatchCover, TellsWhatEachLayerShows) {
   IdMap map;
   map.size = 2, map.layers = 2;

@@ -124,7 +124,7 @@ void Relighter::setPatch(std::shared_ptr<const BiscaleSurface> patch) {
 }
 
 std::shared_ptr<const BiscaleSurface> Relighter::shownPatch() const {
-  const bool held = !transfer_ || transfer_->form != TransferForm::Diffuse;
+  const bool held = !transfer_ || transfer_->form != TransferForm::Diffuse || (patch_ && patch_->matte);
   return method_.name == "biscale" && held ? patch_ : nullptr;
 }
 
