@@ -33,7 +33,8 @@ class Parts {
   /// By the compute shader; false where the driver keeps no matrices.
   bool keep(Job& job) {
     const LiveScene& scene = stage_.scene();
-    kept_ = renderer_.keepPatchTransfer(*scene.samples, *scene.transfer, job);
+    kept_ = renderer_.keepPatchTransfer(
+        turnedTransfer(*scene.patch, *scene.samples, *scene.transfer, gl::TransferPass::mostBytes(), job));
     return kept_;
   }
   void transferThere() {

@@ -143,15 +143,13 @@ void BiscalePass::setLight(const SampleSet& samples, const Transfer& transfer, c
   checkErrors("upload of light on the patch");
 }
 
-bool BiscalePass::keepTransfer(const SampleSet& samples, const Transfer& transfer, Job& job) {
-  if (!surface_) return false;
-  const TurnedTransfer turned = turnedTransfer(*surface_, samples, transfer, TransferPass::mostBytes(), job);
-  if (turned.empty()) {
-    if (transfer_) transfer_->forget();
+bool BiscalePass::keepTransfer(const TurnedTransfer& turned) {
+  if (transfer_) transfer_->forget();
+  if (!surface_ || turned.empty() || turned.frames != surface_->shading.size() ||
+      turned.padded != surface_->responses->padded())
     return false;
-  }
   if (!transfer_) transfer_.emplace();
-  transfer_->upload(turned, surface_->shading.size());
+  transfer_->upload(turned);
   return true;
 }
 

@@ -36,9 +36,10 @@ class BiscalePass {
   /// other scenes' samples.
   void setLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
 
-  /// Keeps transfer on the graphics card, so that light costs it one product per frame. False where that
-  /// cannot be: other forms than Matrix, more than fits (transfer_pass.h). As long as the surface stays.
-  bool keepTransfer(const SampleSet& samples, const Transfer& transfer, Job& job);
+  /// Keeps transfer of the surface on the graphics card, so that light costs it one product per frame, as
+  /// long as the surface's frames stay. False, and nothing is kept, where it is empty or not of as many
+  /// frames.
+  bool keepTransfer(const TurnedTransfer& turned);
   bool keepsTransfer() const { return transfer_ && !transfer_->empty(); }
   /// Light by the transfer that was kept.
   void setLight(const ShRgb& light);

@@ -91,8 +91,8 @@ void SceneRenderer::setPatchLight(const SampleSet& samples, const Transfer& tran
   if (patch_) patch_->setLight(samples, transfer, light, job);
 }
 
-bool SceneRenderer::keepPatchTransfer(const SampleSet& samples, const Transfer& transfer, Job& job) {
-  return patch_ && patch_->keepTransfer(samples, transfer, job);
+bool SceneRenderer::keepPatchTransfer(const TurnedTransfer& turned) {
+  return patch_ && patch_->keepTransfer(turned);
 }
 
 void SceneRenderer::setPatchLight(const ShRgb& light) {

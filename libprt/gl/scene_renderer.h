@@ -89,7 +89,7 @@ class SceneRenderer {
   void setPatchLight(const SampleSet& samples, const Transfer& transfer, const ShRgb& light, Job& job);
 
   /// See BiscalePass::keepTransfer(): afterwards light alone is enough, until there is another patch.
-  bool keepPatchTransfer(const SampleSet& samples, const Transfer& transfer, Job& job);
+  bool keepPatchTransfer(const TurnedTransfer& turned);
   void setPatchLight(const ShRgb& light);
 
   /// Objects that are seen with the scene, as they are lit. Their geometry is sent again only when it is

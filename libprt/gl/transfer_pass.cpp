@@ -22,9 +22,10 @@ std::size_t TransferPass::mostBytes() {
   return std::min(kMost, std::size_t(std::max(block, 0)));
 }
 
-void TransferPass::upload(const TurnedTransfer& turned, std::size_t frames) {
+void TransferPass::upload(const TurnedTransfer& turned) {
   matrices_.upload(std::span<const std::uint16_t>(turned.halfs));
-  functions_ = int(turned.lights), groups_ = int(turned.padded / 8), count_ = int(frames) * 3 * groups_;
+  functions_ = int(turned.lights), groups_ = int(turned.padded / 8),
+  count_ = int(turned.frames) * 3 * groups_;
   program_.set("functions", functions_);
   program_.set("groups", groups_);
   program_.set("channels", turned.channels);

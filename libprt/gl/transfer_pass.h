@@ -18,8 +18,8 @@ class TransferPass {
   /// What matrices may take: what the driver lets shaders see in one piece, and half a gigabyte at most.
   static std::size_t mostBytes();
 
-  /// Sends them. `frames` as many as `turned` is of.
-  void upload(const TurnedTransfer& turned, std::size_t frames);
+  /// Sends them.
+  void upload(const TurnedTransfer& turned);
   bool empty() const { return count_ == 0; }
   void forget() { count_ = 0; }
   /// Writes records as BiscaleLight has them, [frames][3][padded] floats; `to` has room for them.

@@ -34,6 +34,7 @@ TurnedTransfer turnedTransfer(const BiscaleSurface& surface, const SampleSet& sa
   if (samples.vertices < surface.scene->mesh.vertexCount() || transfer.samples != samples.size())
     throw ValueError("transfer was not baked at the vertices of this scene", "bi-scale renderer",
                      "bake the scene again");
+  out.frames = surface.shading.size();
   out.channels = transfer.channels;
   out.lights = std::size_t(transfer.functions());
   out.padded = surface.responses->padded();

@@ -14,6 +14,7 @@
 namespace prt {
 
 struct TurnedTransfer {
+  std::size_t frames = 0;
   int channels = 1;        ///< 1: the same for all three
   std::size_t lights = 0;  ///< functions of the light
   std::size_t padded =

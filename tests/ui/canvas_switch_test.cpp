@@ -24,7 +24,7 @@ class CanvasSwitchTest : public test::StudioTest {
     return waitFor([this] { return view().canvas().settled(); }, 20000);
   }
   CanvasContext context() {
-    return {session.relighter(), session.view(), session.layers(), [](QPainter&) {}};
+    return {session.relighter(), session.view(), session.layers(), session.jobs(), [](QPainter&) {}};
   }
 };
 
@@ -103,6 +103,11 @@ TEST_F(CanvasSwitchTest, BothDrawThePatch) {
   ASSERT_TRUE(isGl() && drawn() && still());
   const QImage patched = picture();
   EXPECT_LT(difference(cpu, patched), 0.02);
+  // With transfer kept where the picture is drawn, as on a graphics card.
+  auto& canvas = dynamic_cast<GlCanvas&>(view().canvas());
+  canvas.setKeepsTransfer(true);
+  ASSERT_TRUE(waitFor([&] { return canvas.transferKept() && still(); }, 10000));
+  EXPECT_LT(difference(patched, picture()), 0.002);
   const auto differs = [&] { return waitFor([&] { return difference(patched, picture()) > 0.02; }, 10000); };
   session.setEnvironmentAngle(session.environmentAngle() + 90);
   EXPECT_TRUE(differs()) << "the light turns over it";

@@ -2,6 +2,7 @@
 // The surface that a viewport draws on: OpenGL where there is 4.5, else the CPU renderer. A canvas only
 // draws; mouse and keys go to the viewport around it.
 
+#include "ui/model/job_runner.h"
 #include "ui/model/relighter.h"
 #include "ui/model/surface_layers.h"
 #include "ui/model/view_state.h"
@@ -19,6 +20,7 @@ struct CanvasContext {
   Relighter& relighter;
   const ViewState& view;
   const SurfaceLayers& layers;
+  JobRunner& jobs;
   std::function<void(QPainter&)> paintOverlay;  ///< drawn over every frame, in logical pixels
 };
 

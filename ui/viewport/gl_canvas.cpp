@@ -3,7 +3,10 @@
 #include "libprt/gl/headless_context.h"
 #include "libprt/gl/scene_renderer.h"
 #include "libprt/gl/surface_overlay.h"
+#include "libprt/gl/transfer_pass.h"
 #include "libprt/shade/ground_grid.h"
+#include "libprt/shade/turned_transfer.h"
+#include "ui/model/job_runner.h"
 
 #include <QElapsedTimer>
 #include <QOffscreenSurface>
@@ -11,10 +14,12 @@
 #include <QOpenGLFunctions>
 #include <QOpenGLPaintDevice>
 #include <QPainter>
+#include <QPointer>
 #include <QSurfaceFormat>
 #include <QTimer>
 
 #include <algorithm>
+#include <utility>
 
 namespace prt::ui {
 
@@ -36,7 +41,7 @@ QSurfaceFormat wantedFormat() {
 }  // namespace
 
 GlCanvas::GlCanvas(CanvasContext context, QWidget* parent)
-    : QOpenGLWidget(parent), context_(std::move(context)) {
+    : QOpenGLWidget(parent), context_(std::move(context)), keeps_(support() == GlSupport::Hardware) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setFocusPolicy(Qt::NoFocus);
   connect(this, &QOpenGLWidget::frameSwapped, this, [this] { ++frames_; });
@@ -97,6 +102,9 @@ void GlCanvas::initializeGL() {
     scene_ = light_ = materials_ = 0;
     backdrop_.reset();
     patch_.reset();
+    turnedOf_.reset(), turned_.reset();
+    kept_ = false;
+    mostKept_ = gl::TransferPass::mostBytes();
     pass_ = 0;  // what another context has shown is gone with it
     finished_ = broken_ = false;
   } catch (const std::exception& error) {
@@ -186,24 +194,65 @@ void GlCanvas::uploadChanges() {
     renderer_->setPatch(patch);
     patch_ = patch;
     light_ = 0;
+    turnedOf_.reset(), turned_.reset();
+    kept_ = false;
   }
   if (light_ != lit.lightVersion()) uploadLight();
 }
 
 void GlCanvas::uploadLight() {
   Relighter& lit = context_.relighter;
-  if (patch_) {
-    const bool baked = lit.transfer() && lit.samples();
-    Transfer unshadowed;
-    unshadowed.bands = lit.bands();
-    Job patient;
-    renderer_->setPatchLight(baked ? *lit.samples() : SampleSet{}, baked ? *lit.transfer() : unshadowed,
-                             lit.light(), patient);
-  } else {
+  if (patch_)
+    uploadPatchLight();
+  else
     renderer_->setLight(lit.surface());
-  }
   renderer_->setSurroundings(lit.surroundings());
   light_ = lit.lightVersion();
+}
+
+void GlCanvas::uploadPatchLight() {
+  Relighter& lit = context_.relighter;
+  const bool baked = lit.transfer() && lit.samples();
+  if (keeps_ && baked && lit.transfer()->final()) turnTransfer();
+  if (kept_ && turnedOf_ == lit.transfer()) return renderer_->setPatchLight(lit.light());
+  Transfer unshadowed;
+  unshadowed.bands = lit.bands();
+  Job patient;
+  renderer_->setPatchLight(baked ? *lit.samples() : SampleSet{}, baked ? *lit.transfer() : unshadowed,
+                           lit.light(), patient);
+}
+
+// Begun once for each bake; until it is there light takes the other way. What was made is sent and given up.
+void GlCanvas::turnTransfer() {
+  const auto& transfer = context_.relighter.transfer();
+  if (turnedOf_ == transfer) {
+    if (turned_) kept_ = renderer_->keepPatchTransfer(*std::exchange(turned_, nullptr));
+    return;
+  }
+  turnedOf_ = transfer;
+  turned_.reset();
+  kept_ = false;
+  auto made = std::make_shared<std::shared_ptr<const TurnedTransfer>>();
+  context_.jobs.startQuietly(
+      QStringLiteral("transfer on the card"), tr("Transfer for the graphics card"),
+      [made, patch = patch_, samples = context_.relighter.samples(), transfer, most = mostKept_](Job& job) {
+        *made =
+            std::make_shared<const TurnedTransfer>(turnedTransfer(*patch, *samples, *transfer, most, job));
+      },
+      [self = QPointer(this), made, patch = patch_, transfer](const JobInfo&) {
+        if (!self || !*made || self->patch_ != patch || self->turnedOf_ != transfer) return;
+        self->turned_ = *made;
+        self->light_ = 0;
+        self->invalidate();
+      });
+}
+
+void GlCanvas::setKeepsTransfer(bool keeps) {
+  keeps_ = keeps;
+  kept_ = false;
+  turnedOf_.reset(), turned_.reset();
+  light_ = 0;
+  invalidate();
 }
 
 void GlCanvas::drawScene() {

@@ -12,6 +12,10 @@ class SceneRenderer;
 class SurfaceOverlay;
 }  // namespace prt::gl
 
+namespace prt {
+struct TurnedTransfer;
+}
+
 namespace prt::ui {
 
 enum class GlSupport { None, Software, Hardware };
@@ -37,6 +41,9 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   quint64 frames() const override { return frames_; }
   QString describe() const override { return description_; }
   QImage grabPicture() override;
+  /// Whether transfer is kept where the picture is drawn: on graphics cards, unless somebody says otherwise.
+  void setKeepsTransfer(bool keeps);
+  bool transferKept() const { return kept_; }
 
  Q_SIGNALS:
   /// The driver refused a shader or ran out of memory; nothing more will be drawn.
@@ -51,6 +58,8 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   void release();
   void uploadChanges();
   void uploadLight();
+  void uploadPatchLight();
+  void turnTransfer();
   void drawScene();
   void drawLayers();
   void goOn(double milliseconds);
@@ -71,6 +80,11 @@ class GlCanvas : public QOpenGLWidget, public Canvas {
   quint64 scene_ = 0, light_ = 0, materials_ = 0;
   std::shared_ptr<const EnvironmentMap> backdrop_;  // that was uploaded
   std::shared_ptr<const BiscaleSurface> patch_;     // the same
+  // Transfer in the patch's frames for the card, made behind the interface: of what, and what was made.
+  std::shared_ptr<const Transfer> turnedOf_;
+  std::shared_ptr<const TurnedTransfer> turned_;
+  std::size_t mostKept_ = 0;  // bytes
+  bool keeps_, kept_ = false;
   quint64 layersScene_ = 0, layersValues_ = 0, layersPaint_ = 0, layersMarks_ = 0;
 };
 

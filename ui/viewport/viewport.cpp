@@ -71,7 +71,8 @@ void Viewport::setDrawing(Drawing drawing) {
 }
 
 CanvasContext Viewport::canvasContext() {
-  return {session_.relighter(), session_.view(), session_.layers(), [this](QPainter& p) { paintOver(p); }};
+  return {session_.relighter(), session_.view(), session_.layers(), session_.jobs(),
+          [this](QPainter& p) { paintOver(p); }};
 }
 
 void Viewport::chooseCanvas() {
