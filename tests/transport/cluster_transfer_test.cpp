@@ -17,7 +17,7 @@ using test::rock;
 const Transfer& dense() {
   static const Transfer transfer = [] {
     TransferSettings s;
-    s.rays = 256, s.bounces = 1, s.form = TransferForm::Matrix, s.storage = DType::f16;
+    s.rays = 1024, s.bounces = 1, s.form = TransferForm::Matrix, s.storage = DType::f16;
     return BakeInput(rock(90), Rgb(0.7f, 0.6f, 0.5f)).transfer(s);
   }();
   return transfer;
@@ -43,7 +43,7 @@ double distanceOf(const Transfer& a, const Transfer& b) {
 
 TEST(ClusteredTransfer, KeepsItsBudgetAndSaysWhatItMissed) {
   std::size_t before = 0;
-  for (const double budget : {0.02, 0.05, 0.1}) {
+  for (const double budget : {0.04, 0.07, 0.15}) {
     const Transfer few = clustered(budget);
     EXPECT_TRUE(few.clustered());
     const double error = distanceOf(few, dense());
@@ -86,7 +86,7 @@ TEST(ClusteredTransfer, IsAppliedAsTheMatricesThatItStandsFor) {
 }
 
 TEST(ClusteredTransfer, LightIsOffByAboutTheError) {
-  const Transfer few = clustered(0.02);
+  const Transfer few = clustered(0.04);
   double worst = 0;
   for (const Vec3& d : {Vec3(1, 0.2f, 0), Vec3(0, 1, 0), Vec3(-0.4f, 0.3f, 0.8f)}) {
     const std::vector<Rgb> a = transferredRadiance(few, lobeLight(d)),
@@ -96,7 +96,7 @@ TEST(ClusteredTransfer, LightIsOffByAboutTheError) {
       difference += double(dot(a[i] - b[i], a[i] - b[i])), norm += double(dot(b[i], b[i]));
     worst = std::max(worst, std::sqrt(difference / norm));
   }
-  EXPECT_LT(worst, 0.04);
+  EXPECT_LT(worst, 0.08);
 }
 
 TEST(ClusteredTransfer, IsTheSameForAnyNumberOfThreads) {

@@ -54,7 +54,8 @@ TEST_F(ViewportTest, TheVaseStandsInTheMiddle) {
 TEST_F(ViewportTest, ATwoSidedMaterialIsDrawnWhileItIsBaked) {
   window.viewport().setDrawing(Drawing::OpenGl);
   openAndSettle();
-  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), [](QPainter&) {}}, nullptr);
+  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), session.jobs(), [](QPainter&) {}},
+                nullptr);
   cpu.resize(64, 48);
   const auto samples = [this] { return session.relighter().samples()->size(); };
   const std::size_t oneSided = samples();
@@ -279,7 +280,8 @@ TEST_F(ViewportTest, GlAndCpuCanvasShowTheSamePicture) {
   ASSERT_TRUE(waitFor(
       [&] { return window.viewport().canvas().frames() > 0 && window.viewport().canvas().settled(); }));
   const QImage gl = picture();
-  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), [](QPainter&) {}}, nullptr);
+  CpuCanvas cpu({session.relighter(), session.view(), session.layers(), session.jobs(), [](QPainter&) {}},
+                nullptr);
   cpu.resize(window.viewport().size());
   QImage other = cpu.grabPicture();
   ASSERT_EQ(other.size(), gl.size());
