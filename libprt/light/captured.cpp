@@ -36,12 +36,19 @@ class PointSum {
   static constexpr std::size_t kBatch = 2048;
 
   void flush() {
-    std::vector<float> part(sum_.size());
-    for (std::size_t i = 0; i < 3; ++i) {
-      std::fill(part.begin(), part.end(), 0.0f);
-      shAccumulate(bands_, direction_[0], direction_[1], direction_[2], flux_[i], part);
-      for (std::size_t k = 0; k < part.size(); ++k) sum_[k][int(i)] += double(part[k]);
+    const std::size_t count = direction_[0].size(), functions = sum_.size();
+    std::vector<float> values(count * functions), part(3 * functions, 0.0f);
+    shEvaluateBatch(bands_, direction_[0], direction_[1], direction_[2], values);
+    for (std::size_t point = 0; point < count; ++point) {
+      const float* y = values.data() + point * functions;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float flux = flux_[i][point];
+        float* to = part.data() + i * functions;
+        for (std::size_t k = 0; k < functions; ++k) to[k] += flux * y[k];
+      }
     }
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < functions; ++k) sum_[k][int(i)] += double(part[i * functions + k]);
     for (std::size_t i = 0; i < 3; ++i) direction_[i].clear(), flux_[i].clear();
   }
 
@@ -49,6 +56,14 @@ class PointSum {
   std::array<std::vector<float>, 3> direction_, flux_;
   std::vector<DVec3> sum_;
 };
+
+/// Of a strip.
+std::size_t faceTowards(const Vec3& d) {
+  const Vec3 size = abs(d);
+  if (size.x >= size.y && size.x >= size.z) return d.x > 0 ? 0 : 1;
+  if (size.y >= size.z) return d.y > 0 ? 2 : 3;
+  return d.z < 0 ? 4 : 5;
+}
 
 /// The objects' own light, and the constant light behind them.
 void addTexels(const CapturedCube& cube, const Rgb& constant, PointSum& sum) {
@@ -105,10 +120,10 @@ CubeGrid::Face CubeGrid::face(int number) const {
 }
 
 float CapturedCube::coverage(const Vec3& d) const {
+  if (!seen[faceTowards(d)]) return 0;  // most of them, mostly
   const int side = grid->side();
   const Vec2 place = grid->geometry().toImage(d);
   const int face = std::min(int(place.x) / side, 5);
-  if (!seen[std::size_t(face)]) return 0;
   const float first = float(face * side), most = float(side - 1);
   const float x = std::clamp(place.x - first - 0.5f, 0.0f, most), y = std::clamp(place.y - 0.5f, 0.0f, most);
   const int left = std::min(int(x), std::max(side - 2, 0)), top = std::min(int(y), std::max(side - 2, 0));

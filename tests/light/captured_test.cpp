@@ -161,6 +161,16 @@ TEST(Captured, ASunInTheMapIsTakenAwayWholeWhereverTheMapIsTurned) {
   }
 }
 
+TEST(Captured, CoverageIsFoundInEveryDirection) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 d(test::randomDirection(random));
+    const CapturedCube cube = cubeOf(disc(d, 0.2, Rgb(0)));
+    EXPECT_NEAR(cube.coverage(d), 1, 1e-6f);
+    EXPECT_EQ(cube.coverage(-d), 0);
+  }
+}
+
 TEST(Captured, DirectionalLightIsDimmedByWhatStandsInItsWay) {
   LightRig rig;
   rig.directionals = {{normalize(Vec3(0.2f, 0.3f, 0.9f)), Rgb(2, 3, 4)}};

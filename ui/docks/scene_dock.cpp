@@ -230,7 +230,9 @@ void SceneDock::refresh() {
   for (std::size_t i = 0; i < recipe.objects.size(); ++i) {
     QTreeWidgetItem* item = objects_->topLevelItem(int(i));
     item->setText(0, QString::fromStdString(recipe.objects[i].name));
-    item->setToolTip(0, QString::fromStdString(recipe.objects[i].mesh.path));
+    const QString path = QString::fromStdString(recipe.objects[i].mesh.path);
+    item->setToolTip(
+        0, isCaptured(recipe.objects[i]) ? tr("%1: captured, moves without a bake").arg(path) : path);
     showEye(*item, recipe.objects[i].visible);
     if (isCaptured(recipe.objects[i]) && sameScene) {
       const ObjectMesh found = session_.sceneEditor().meshOf(int(i));
