@@ -114,8 +114,9 @@ bool isMattePlane(const Recipe& recipe) {
   return matte(recipe.patch) &&
          std::all_of(recipe.layers.begin(), recipe.layers.end(),
                      [&](const LayerRecipe& layer) { return !isPainted(layer) || matte(layer.patch); }) &&
-         std::none_of(recipe.objects.begin(), recipe.objects.end(),
-                      [](const ObjectRecipe& o) { return o.visible && !o.patch && o.material.glossy(); });
+         std::none_of(recipe.objects.begin(), recipe.objects.end(), [](const ObjectRecipe& o) {
+           return o.visible && !o.captured && !o.patch && o.material.glossy();
+         });
 }
 
 bool showsPatch(const Recipe& recipe) {

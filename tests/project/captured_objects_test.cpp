@@ -58,6 +58,10 @@ TEST(CapturedObjects, AreNotBakedAndMoveFreely) {
   EXPECT_NE(pipeline.keys(seen).at("direct"), pipeline.keys(recipe).at("direct"));
   EXPECT_EQ(resolved(resolved(moved)), resolved(moved));
   EXPECT_EQ(resolved(moved).transfer.kind, TransferKind::Diffuse) << "nothing glossy is baked";
+  Recipe painted = recipe, paintedMoved = moved;
+  for (Recipe* each : {&painted, &paintedMoved})
+    each->patch.model = PatchModel::Flat, each->method.name = "biscale";
+  EXPECT_EQ(pipeline.keys(paintedMoved), pipeline.keys(painted)) << "nor is it lit with a patch";
   Job job;
   const auto bake = [&](const Recipe& r) {
     return pipeline.run(r, {"transfer"}, job).get<TransferProduct>("transfer")->transfer.values.bytes;
