@@ -17,13 +17,6 @@ void planeSteps(vec3 p, vec4 viewer, vec3 e1, vec3 e2, out vec3 right, out vec3 
   down -= ray * (dot(down, normal) / slope);
 }
 
-// How a step moves the weights of corners 1 and 2.
-vec2 weightStep(vec3 step, vec3 e1, vec3 e2) {
-  float d11 = dot(e1, e1), d12 = dot(e1, e2), d22 = dot(e2, e2), p1 = dot(step, e1), p2 = dot(step, e2);
-  float area = d11 * d22 - d12 * d12;
-  return area > 0.0 ? vec2(d22 * p1 - d12 * p2, d11 * p2 - d12 * p1) / area : vec2(0.0);
-}
-
 void footprintOf(vec2 right, vec2 down, out int taps, out float width, out vec2 step) {
   float a = right.x * right.x + down.x * down.x, b = right.x * right.y + down.x * down.y, c = right.y * right.y + down.y * down.y;
   float mean = 0.5 * (a + c), half_ = 0.5 * (a - c), root = sqrt(half_ * half_ + b * b);

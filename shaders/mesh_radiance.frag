@@ -17,7 +17,8 @@ uniform vec4 viewer;  // where, w = 1; or in which direction, w = 0
 
 #if defined(INTERPOLATED)
 in vec4 vLight[kLightSlots];
-#define NUMBER(n) vLight[(n) / 4][(n) % 4]
+vec4 inside[kLightSlots];
+#define NUMBER(n) inside[(n) / 4][(n) % 4]
 #define COEFFICIENT(i) vec3(NUMBER(3 * i), NUMBER(3 * i + 1), NUMBER(3 * i + 2))
 #elif defined(EVERYWHERE)
 uniform vec3 light[kFunctions];
@@ -33,8 +34,7 @@ vec3 fetch(uint at) { return vec3(radiance[at], radiance[at + 1], radiance[at + 
 #endif
 
 // Unit normal on the side that is seen; the face's own where the shading normals cancel.
-vec3 seenNormal() {
-  vec3 normal = vNormal;
+vec3 seenNormal(vec3 normal) {
   if (dot(normal, normal) < 1e-12) {
     uvec3 t = triangle();
     normal = cross(positionOf(t.y) - positionOf(t.x), positionOf(t.z) - positionOf(t.x));
@@ -43,10 +43,15 @@ vec3 seenNormal() {
 }
 
 void main() {
+  vec2 way = wayInside(triangle());
+  vec3 front = INSIDE(vFront, way), behindThere = INSIDE(vBehind, way), smoothNormal = INSIDE(vNormal, way);
+#ifdef INTERPOLATED
+  for (int s = 0; s < kLightSlots; ++s) inside[s] = INSIDE(vLight[s], way);
+#endif
   Material material = materials[vObject];
   colour = vec4(0.0, 0.0, 0.0, 1.0);
   if (!gl_FrontFacing && material.albedo.w == 0.0) return;
-  vec3 exitDiffuse = gl_FrontFacing ? vFront : vBehind;
+  vec3 exitDiffuse = gl_FrontFacing ? front : behindThere;
 #if defined(TEXELS)
   uvec4 at;
   vec4 weight;
@@ -63,7 +68,7 @@ void main() {
   at *= 3u * uint(kFunctions);
 #endif
 
-  vec3 normal = seenNormal(), exitGlossy = vec3(0.0);
+  vec3 normal = seenNormal(smoothNormal), exitGlossy = vec3(0.0);
   float response[kFunctions];
   shEvaluate(normal, response);
 #define DIFFUSE(i, l) if (kCosine[l] != 0.0) exitDiffuse += kCosine[l] * response[i] * COEFFICIENT(i);

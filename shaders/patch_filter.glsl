@@ -88,7 +88,7 @@ bool filterHere(uvec3 t, vec3 weight) {
   vec2 middle = weight.x * c0 + weight.y * c1 + weight.z * c2;
   vec3 a = positionOf(t.x), e1 = positionOf(t.y) - a, e2 = positionOf(t.z) - a, right, down;
   planeSteps(vPosition, viewer, e1, e2, right, down);
-  vec2 r = weightStep(right, e1, e2), d = weightStep(down, e1, e2), step;
+  vec2 r = weightsOf(right, e1, e2), d = weightsOf(down, e1, e2), step;
   int taps;
   float width;
   footprintOf(r.x * (c1 - c0) + r.y * (c2 - c0), d.x * (c1 - c0) + d.y * (c2 - c0), taps, width, step);

@@ -243,11 +243,9 @@ void MeshPass::draw(const SurfaceView& view) {
   Program& program = this->program();
   program.set("worldToClip", view.worldToClip);
   materialBuffer_.bindStorage(kMaterialBinding);
-  if (light_ != Light::Irradiance) {
-    indices_.bindStorage(kCornerBinding);
-    positions_.bindStorage(kPositionBinding);
-    backSamples_.bindStorage(kBehindBinding);
-  }
+  indices_.bindStorage(kCornerBinding);
+  positions_.bindStorage(kPositionBinding);
+  if (light_ != Light::Irradiance) backSamples_.bindStorage(kBehindBinding);
   if (light_ == Light::TexelIrradiance || light_ == Light::TexelRadiance) {
     program.set("texelStart", texelStart_);
     colours_.bindStorage(kColourBinding);

@@ -386,6 +386,35 @@ TEST_F(SceneRendererTest, PassesAreTakenAtTheirOwnPlacesInThePixels) {
   EXPECT_LE(wrong, 2) << "of " << mixed << " pixels on edges";
 }
 
+// Where a triangle covers part of a pixel but not its middle, what lies beyond its edge must not show: thin
+// triangles with light at one end and none at the other would flare up.
+TEST_F(SceneRendererTest, PixelsThatAreCoveredInPartStayWithinTheirTriangles) {
+  SceneRenderer renderer;
+  const TriMesh rock = makeRock({});
+  renderer.setScene(sceneOf(rock, {.albedo = Rgb(1)}));
+  std::vector<Rgb> irradiance;
+  for (std::size_t v = 0; v < rock.vertexCount(); ++v)
+    irradiance.push_back(v % 3 == 0 ? Rgb(kPiF) : Rgb(0.05f));
+  Picture view = picture(4);
+  view.camera.eye = {0.4f, 0.3f, 2.6f};
+  const auto brightest = [&] {
+    const Image image = renderer.render(view);
+    float most = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) most = std::max(most, image.rgb(x, y).x);
+    return most;
+  };
+  renderer.setIrradiance(irradiance);
+  EXPECT_GT(brightest(), 0.5f);
+  EXPECT_LT(brightest(), 1.001f);
+  // The same as transferred radiance, which goes from stage to stage.
+  std::vector<Rgb> radiance;
+  for (const Rgb& e : irradiance) radiance.push_back(e / kPiF * std::sqrt(4 * kPiF));
+  renderer.setRadiance(1, radiance);
+  EXPECT_GT(brightest(), 0.5f);
+  EXPECT_LT(brightest(), 1.001f);
+}
+
 TEST_F(SceneRendererTest, LightForAnotherMeshIsRefused) {
   SceneRenderer renderer;
   renderer.setScene(sceneOf(slantedTriangle()));
