@@ -30,6 +30,7 @@ PatchCover::PatchCover(std::shared_ptr<const Atlas> atlas, std::shared_ptr<const
     : atlas_(std::move(atlas)), map_(std::move(map)) {
   if (atlas_->uvTriangles.size() != triangles)
     throw ValueError("the atlas was made for another mesh", "patch on the surface", "bake idmap again");
+  corners_ = cornerCoordinates();
 }
 
 PatchCover::PatchCover(std::shared_ptr<const TriMesh> mesh, const PatchRepeat& repeat)
@@ -52,8 +53,8 @@ LayerShares PatchCover::sharesAt(std::uint32_t triangle, const Vec2& barycentric
 }
 
 std::size_t PatchCover::mapTexel(std::uint32_t triangle, const Vec2& barycentric) const {
-  const UVec3& t = atlas_->uvTriangles[triangle];
-  const Vec2 uv = interpolated(atlas_->uv[t.x], atlas_->uv[t.y], atlas_->uv[t.z], barycentric);
+  const Vec2* corner = &corners_[3 * std::size_t(triangle)];
+  const Vec2 uv = interpolated(corner[0], corner[1], corner[2], barycentric);
   const int last = map_->size - 1;
   const int x = std::clamp(int(uv.x * float(map_->size)), 0, last),
             y = std::clamp(int((1 - uv.y) * float(map_->size)), 0, last);

@@ -48,6 +48,7 @@ class PatchCover {
   std::size_t mapTexel(std::uint32_t triangle, const Vec2& barycentric) const;
 
   std::shared_ptr<const Atlas> atlas_;
+  std::vector<Vec2> corners_;  // [3F] in the atlas: a triangle's together, for one look into memory
   std::shared_ptr<const IdMap> map_;
   std::shared_ptr<const TriMesh> mesh_;
   PatchRepeat repeat_;
