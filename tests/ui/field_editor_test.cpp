@@ -3,8 +3,8 @@
 #include "ui/model/field_editor.h"
 
 #include "libprt/project/synthesis_stages.h"
+#include "tests/ui/brush_fixture.h"
 #include "tests/ui/pointer.h"
-#include "tests/ui/studio_fixture.h"
 #include "ui/model/chart_editor.h"
 #include "ui/viewport/view_geometry.h"
 
@@ -23,17 +23,11 @@ using test::Pointer;
 using test::s;
 using test::waitFor;
 
-class FieldEditorTest : public test::StudioTest {
+class FieldEditorTest : public test::BrushTest {
  protected:
-  void openShape() {
-    Recipe recipe = test::smallScene();
-    recipe.transfer.rays = 64, recipe.transfer.bounces = 0;
-    openAndSettle(recipe);
-  }
+  void openShape() { openAndSettle(quickScene()); }
   void takeBrush() {
-    window.viewport().setFocus();
-    QTest::keyClick(&window, Qt::Key_D);
-    ASSERT_EQ(session.painting().brush(), Brush::Strokes);
+    BrushTest::takeBrush(Qt::Key_D, Brush::Strokes);
     settle();
   }
   void settle() {
@@ -41,18 +35,10 @@ class FieldEditorTest : public test::StudioTest {
     ASSERT_TRUE(settled());
     pass(50);
   }
-  /// A place in the viewport, from its middle, which shows the model.
-  QPointF at(double dx, double dy) {
-    return QPointF(window.viewport().width() / 2 + dx, window.viewport().height() / 2 + dy);
-  }
   ViewGeometry geometry() { return {session.view().camera(), window.viewport().size()}; }
   /// Up the middle of the model.
   void drawUpwards() { Pointer(&window.viewport()).drag(at(0, 60), at(0, -60)); }
-  QPushButton* button(const char* name) { return window.findChild<QPushButton*>(s(name)); }
-  QImage shot() {
-    pass(50);
-    return window.viewport().canvas().widget()->grab().toImage();
-  }
+  QPushButton* button(const char* name) { return find<QPushButton>(name); }
 
   FieldEditor& field = session.field();
 };

@@ -2,13 +2,12 @@
 
 #include "ui/model/layer_editor.h"
 
+#include "tests/ui/brush_fixture.h"
 #include "tests/ui/pointer.h"
-#include "tests/ui/studio_fixture.h"
 #include "ui/widgets/property_row.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDockWidget>
 #include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
@@ -23,49 +22,20 @@ using test::Pointer;
 using test::s;
 using test::waitFor;
 
-class LayerEditorTest : public test::StudioTest {
+class LayerEditorTest : public test::BrushTest {
  protected:
-  static Recipe patched() {
-    Recipe recipe = test::smallScene();
-    recipe.transfer.rays = 64, recipe.transfer.bounces = 0;
-    recipe.patch.model = PatchModel::HeightField;
-    recipe.patch.heightmap = "builtin:bins";
-    recipe.patch.grid = 24;
-    recipe.rtt.texels = 12, recipe.rtt.views = 2, recipe.rtt.rays = 32, recipe.rtt.bounces = 0;
-    recipe.rtt.supersamples = 1;
-    return recipe;
-  }
-  void openWith(const Recipe& recipe) {
-    openAndSettle(recipe);
-    for (QDockWidget* dock : window.findChildren<QDockWidget*>())
-      if (dock->objectName() != s("synthesis") && dock->objectName() != s("patch")) dock->hide();
-    ASSERT_TRUE(window.bringToFront(s("synthesis")));
-    pass(50);
-  }
+  void openWith(const Recipe& recipe) { openWithDocks(recipe, {s("patch")}); }
   void takeBrush() {
-    window.viewport().setFocus();
-    QTest::keyClick(&window, Qt::Key_P);
-    ASSERT_EQ(session.painting().brush(), Brush::Layers);
-    ASSERT_TRUE(waitFor([this] { return session.painting().on() && layers.settled(); }));
-  }
-  QPointF at(double dx, double dy) {
-    return QPointF(window.viewport().width() / 2 + dx, window.viewport().height() / 2 + dy);
-  }
-  template <class Widget>
-  Widget* find(const char* name) {
-    return window.findChild<Widget*>(s(name));
+    BrushTest::takeBrush(Qt::Key_P, Brush::Layers);
+    ASSERT_TRUE(waitFor([this] { return layers.settled(); }));
   }
   const std::vector<LayerRecipe>& recipes() { return session.document().recipe().layers; }
-  QImage shot() {
-    pass(50);
-    return window.viewport().canvas().widget()->grab().toImage();
-  }
 
   LayerEditor& layers = session.patchLayers();
 };
 
 TEST_F(LayerEditorTest, ALayerIsAddedPaintedErasedAndUndone) {
-  openWith(patched());
+  openWith(quickPatch());
   auto* list = find<QListWidget>("layerList");
   EXPECT_EQ(list->count(), 1) << "the patch alone";
   EXPECT_FALSE(find<QPushButton>("paintLayer")->isEnabled()) << "there is nothing to paint with";
@@ -107,7 +77,7 @@ TEST_F(LayerEditorTest, ALayerIsAddedPaintedErasedAndUndone) {
 }
 
 TEST_F(LayerEditorTest, ThePatchDockEditsTheSelectedLayer) {
-  openWith(patched());
+  openWith(quickPatch());
   ASSERT_TRUE(window.bringToFront(s("patch")));
   auto* which = find<QComboBox>("patchLayer");
   EXPECT_FALSE(which->isVisible()) << "there is no choice";
@@ -161,7 +131,7 @@ TEST_F(LayerEditorTest, ThreeAtMostAndNoneWithoutAPatch) {
 }
 
 TEST_F(LayerEditorTest, LayersOfAFileAreBakedAndShown) {
-  Recipe recipe = patched();
+  Recipe recipe = quickPatch();
   recipe.method.name = "biscale";
   recipe.atlas.size = 256, recipe.idmap.size = 256, recipe.synthesis.vertices = 4000;
   LayerRecipe& layer = recipe.layers.emplace_back();

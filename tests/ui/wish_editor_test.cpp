@@ -2,56 +2,30 @@
 
 #include "ui/model/wish_editor.h"
 
+#include "tests/ui/brush_fixture.h"
 #include "tests/ui/pointer.h"
-#include "tests/ui/studio_fixture.h"
 #include "ui/widgets/exemplar_square.h"
 
 #include <QCheckBox>
-#include <QDockWidget>
 #include <QPushButton>
 
 namespace prt::ui {
 namespace {
 
 using test::difference;
-using test::pass;
 using test::Pointer;
 using test::s;
 using test::waitFor;
 
-class WishEditorTest : public test::StudioTest {
+class WishEditorTest : public test::BrushTest {
  protected:
-  void openShape(bool patch = true) {
-    Recipe recipe = test::smallScene();
-    recipe.transfer.rays = 64, recipe.transfer.bounces = 0;
-    if (patch) {
-      recipe.patch.model = PatchModel::HeightField;
-      recipe.patch.heightmap = "builtin:bins";
-      recipe.patch.grid = 24;
-      recipe.rtt.texels = 12, recipe.rtt.views = 4, recipe.rtt.rays = 64, recipe.rtt.bounces = 1;
-      recipe.rtt.supersamples = 1;
-    }
-    openAndSettle(recipe);
-    for (QDockWidget* dock : window.findChildren<QDockWidget*>())
-      if (dock->objectName() != s("synthesis")) dock->hide();
-    ASSERT_TRUE(window.bringToFront(s("synthesis")));
-    pass(50);
-  }
+  void openShape(bool patch = true) { openWithDocks(patch ? quickPatch() : quickScene()); }
   void takeBrush() {
-    window.viewport().setFocus();
-    QTest::keyClick(&window, Qt::Key_W);
-    ASSERT_EQ(session.painting().brush(), Brush::Wishes);
-    ASSERT_TRUE(waitFor([this] { return session.painting().on() && wishes.settled(); }));
+    BrushTest::takeBrush(Qt::Key_W, Brush::Wishes);
+    ASSERT_TRUE(waitFor([this] { return wishes.settled(); }));
   }
-  QPointF at(double dx, double dy) {
-    return QPointF(window.viewport().width() / 2 + dx, window.viewport().height() / 2 + dy);
-  }
-  QPushButton* button(const char* name) { return window.findChild<QPushButton*>(s(name)); }
-  ExemplarSquare* exemplar() { return window.findChild<ExemplarSquare*>(s("exemplarSquare")); }
-  QImage shot() {
-    pass(50);
-    return window.viewport().canvas().widget()->grab().toImage();
-  }
+  QPushButton* button(const char* name) { return find<QPushButton>(name); }
+  ExemplarSquare* exemplar() { return find<ExemplarSquare>("exemplarSquare"); }
 
   WishEditor& wishes = session.wishes();
 };

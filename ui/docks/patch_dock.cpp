@@ -120,9 +120,8 @@ void PatchDock::refreshLayers() {
   }
   which_->setCurrentIndex(layers_.selected() - LayerEditor::kPatch);
   head_->setVisible(!layers.empty());
-  if (layers_.selected() == shownLayer_ && preview_.path() == layers_.patchPath()) return;
-  shownLayer_ = layers_.selected();
-  preview_.setPath(layers_.patchPath());
+  if (layers_.selected() == preview_.layer()) return;
+  preview_.setLayer(layers_.selected());
   makeSections();
   refresh();
 }
@@ -153,7 +152,7 @@ Section* PatchDock::makeRows(const QString& title,
 
 // Only the rows that the kind of patch reads.
 void PatchDock::refresh() {
-  const PatchOptions& patch = layers_.patch();
+  const PatchOptions& patch = patchOf(session_.document().recipe(), layers_.selected());
   const bool glossy = patch.specular != Rgb(0);
   for (const Row& each : rows_) {
     const QString& path = each.row->path();

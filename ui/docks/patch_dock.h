@@ -54,7 +54,6 @@ class PatchDock : public DockColumn {
   QWidget* sections_ = nullptr;  // the rows of one patch, made anew for another
   Section* reflection_ = nullptr;
   std::vector<Row> rows_;
-  int shownLayer_ = -1;
   bool picturesWanted_ = false;
 };
 

@@ -4,6 +4,7 @@
 #include "ui/model/session.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace prt::ui {
 
@@ -15,6 +16,14 @@ QString nameOf(const Recipe& recipe, int layer) {
 }
 
 }  // namespace
+
+const PatchOptions& patchOf(const Recipe& recipe, int layer) {
+  const bool there = layer >= 0 && std::size_t(layer) < recipe.layers.size();
+  return there ? recipe.layers[std::size_t(layer)].patch : recipe.patch;
+}
+PatchOptions& patchOf(Recipe& recipe, int layer) {
+  return const_cast<PatchOptions&>(patchOf(std::as_const(recipe), layer));
+}
 
 LayerEditor::LayerEditor(Session& session, QObject* parent)
     : SpotEditor(session, Brush::Layers, MarkOwner::Layers, parent) {
@@ -33,19 +42,6 @@ void LayerEditor::select(int layer) {
 
 QString LayerEditor::patchPath() const {
   return selected_ == kPatch ? QStringLiteral("patch") : QStringLiteral("layers[%1].patch").arg(selected_);
-}
-
-PatchOptions& LayerEditor::patchIn(Recipe& recipe) const {
-  return selected_ != kPatch && std::size_t(selected_) < recipe.layers.size()
-             ? recipe.layers[std::size_t(selected_)].patch
-             : recipe.patch;
-}
-
-const PatchOptions& LayerEditor::patch() const {
-  const Recipe& recipe = session().document().recipe();
-  return selected_ != kPatch && std::size_t(selected_) < recipe.layers.size()
-             ? recipe.layers[std::size_t(selected_)].patch
-             : recipe.patch;
 }
 
 bool LayerEditor::canAdd() const {

@@ -11,6 +11,10 @@ struct Recipe;
 
 namespace prt::ui {
 
+/// The patch of a layer; LayerEditor::kPatch, or a layer that the recipe lacks: the one below.
+const PatchOptions& patchOf(const Recipe& recipe, int layer);
+PatchOptions& patchOf(Recipe& recipe, int layer);
+
 class LayerEditor : public SpotEditor {
   Q_OBJECT
  public:
@@ -22,9 +26,6 @@ class LayerEditor : public SpotEditor {
   int count() const { return int(spots_.size()); }
   /// "patch", or "layers[1].patch": what the Patch dock edits.
   QString patchPath() const;
-  /// That, where the recipe has it.
-  const PatchOptions& patch() const;
-  PatchOptions& patchIn(Recipe& recipe) const;
 
   bool canAdd() const;
   /// A new layer over all others, selected.

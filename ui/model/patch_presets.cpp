@@ -60,7 +60,7 @@ int patchPresetOf(const PatchOptions& options) {
 
 void applyPatchPreset(const LayerEditor& layers, Document& document, const PatchPreset& preset) {
   Recipe next = document.recipe();
-  PatchOptions& patch = layers.patchIn(next);
+  PatchOptions& patch = patchOf(next, layers.selected());
   const PatchOptions before = patch;
   patch = preset.options;
   patch.specular = before.specular, patch.exponent = before.exponent;

@@ -2,6 +2,7 @@
 
 #include "libprt/core/error.h"
 #include "libprt/project/patch_stages.h"
+#include "ui/model/layer_editor.h"
 
 #include <QLocale>
 #include <QPointer>
@@ -62,17 +63,14 @@ PatchPreview::PatchPreview(Document& document, JobRunner& jobs, QObject* parent)
   });
 }
 
-void PatchPreview::setPath(const QString& path) {
-  if (path == path_) return;
-  path_ = path;
+void PatchPreview::setLayer(int layer) {
+  if (layer == layer_) return;
+  layer_ = layer;
   request(false);
 }
 
 const PatchOptions& PatchPreview::options() const {
-  const Recipe& recipe = document_.recipe();
-  for (std::size_t i = 0; i < recipe.layers.size(); ++i)
-    if (path_ == QStringLiteral("layers[%1].patch").arg(i)) return recipe.layers[i].patch;
-  return recipe.patch;
+  return patchOf(document_.recipe(), layer_);
 }
 
 bool PatchPreview::hasShape() const {

@@ -22,9 +22,9 @@ class PatchPreview : public QObject {
  public:
   PatchPreview(Document& document, JobRunner& jobs, QObject* parent = nullptr);
 
-  /// Which of the recipe's: "patch", or "layers[0].patch". One that is not there is `patch`.
-  void setPath(const QString& path);
-  const QString& path() const { return path_; }
+  /// Which of the recipe's, see patchOf().
+  void setLayer(int layer);
+  int layer() const { return layer_; }
   /// Pictures are made while somebody looks.
   void setWatched(bool watched);
   /// Of the picture, in pixels.
@@ -58,7 +58,7 @@ class PatchPreview : public QObject {
 
   Document& document_;
   JobRunner& jobs_;
-  QString path_ = QStringLiteral("patch");
+  int layer_ = -1;
   PatchView view_;
   int width_ = 0, height_ = 0;
   bool watched_ = false, running_ = false, again_ = false, moving_ = false;
