@@ -7,8 +7,11 @@
 //   mesh ─> scene ─┬─> samples ─┬─> direct ─> transfer ─┐
 //                  ├─> rays ────┘                       ├─> relight
 //            (field) ─> frames ─────────────────────────┘
-//   scene ─> charts ─> atlas ────────────────────────┬─> idmap   (atlas ─> samples, where transfer is at
-//   texels) scene ─> field ─> frames ─┬─> synthesis ─────────┘ patch ─> rtt ─────────────┘
+//   scene ─> charts ─> atlas ─────────────────────┬─> idmap
+//   scene ─> field ─> frames ─┬─> synthesis ──────┘
+//   patch ─> rtt, layers ─────┘
+//
+// Where transfer is at texels, atlas ─> samples too.
 
 #include "libprt/core/job.h"
 #include "libprt/project/product.h"
