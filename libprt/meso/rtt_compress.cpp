@@ -89,7 +89,8 @@ Rtt expandRtt(const RttFactors& f, int terms) {
   Rtt rtt(f.texels, f.views, f.bands, f.channels);
   rtt.colour = f.colour, rtt.layers = f.layers;
   rtt.values.resize(rtt.values.size() * std::size_t(f.layers));
-  const auto rowCount = Eigen::Index(f.texels) * f.texels * f.layers, width = Eigen::Index(rtt.values.size()) / rowCount;
+  const auto rowCount = Eigen::Index(f.texels) * f.texels * f.layers,
+             width = Eigen::Index(rtt.values.size()) / rowCount;
   const Eigen::Map<const Rows> c(f.coefficients.data(), rowCount, f.terms),
       e(f.responses.data(), f.terms, width);
   Eigen::Map<Rows>(rtt.values.data(), rowCount, width) = c.leftCols(used) * e.topRows(used);
